@@ -1,0 +1,2 @@
+//! The decimesh command.
+fn main() {}

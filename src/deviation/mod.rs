@@ -1,0 +1,1 @@
+//! Measured distance between two surfaces.
