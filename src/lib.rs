@@ -1,10 +1,13 @@
 //! decimesh: triangle-mesh simplification.
 
+mod collapse;
 pub mod deviation;
 pub mod hqms;
 pub mod io;
 pub mod mesh;
 mod monitor;
+mod quadric;
+mod workers;
 
 pub use hqms::{Options, Selection, Simplified, StoppedBy, Target, Topology, simplify};
 pub use mesh::{Attributes, Mesh, MeshError};

@@ -1,0 +1,464 @@
+//! The mesh while it is being simplified: the one mutable copy, in few bytes.
+//!
+//! Per vertex 12 bytes of position, 4 of error, 1 of flags and 4 of offsets; per face 12 bytes of
+//! corners and 12 of incidence: about 36 bytes a triangle of a closed mesh. Offsets and incidence
+//! (the rings) serve a second time as the map and the target of [`Surface::compact`].
+
+use super::tile::Tile;
+use crate::mesh::{Attributes, Mesh, MeshError};
+use crate::workers::Workers;
+use glam::Vec3;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Three corners. Atomic only so that tiles that work side by side may read the faces between
+/// them: a face is written by the one tile that holds all of its vertices, and a relaxed access
+/// costs what a plain one does. A face is dead when its first two corners are equal.
+pub(crate) type Face = [AtomicU32; 3];
+
+/// What is known about a vertex: bits of [`Surface::flags`].
+pub(crate) mod flag {
+    /// On an edge that has not exactly two faces of one orientation.
+    pub(crate) const BOUNDARY: u8 = 1;
+    /// Target of a collapse in this pass.
+    pub(crate) const USED: u8 = 2;
+    /// Gone.
+    pub(crate) const DEAD: u8 = 4;
+    /// Must not move.
+    pub(crate) const LOCKED: u8 = 8;
+    /// The cheapest collapse of the vertex was not legal when last tried.
+    pub(crate) const BLOCKED: u8 = 16;
+}
+
+/// Marks a vertex that has no successor.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// Faces in a block of parallel work over faces.
+const FACE_BLOCK: usize = 1 << 15;
+/// Vertices in a block of parallel work over vertices.
+const VERTEX_BLOCK: usize = 1 << 15;
+
+/// A surface at an earlier time.
+pub(crate) struct Snapshot {
+    positions: Vec<Vec3>,
+    faces: Vec<[u32; 3]>,
+    flags: Vec<u8>,
+    errors: Vec<f32>,
+    attributes: Attributes,
+    origins: Option<Vec<u32>>,
+}
+
+/// A mesh in the course of its simplification.
+pub(crate) struct Surface {
+    pub(crate) positions: Vec<Vec3>,
+    pub(crate) faces: Vec<Face>,
+    pub(crate) flags: Vec<u8>,
+    /// For each vertex, the estimated distance of its surroundings from the input.
+    pub(crate) errors: Vec<f32>,
+    pub(crate) attributes: Attributes,
+    /// What each vertex was collapsed into, in this pass; empty when nobody asked for origins.
+    pub(crate) merged: Vec<u32>,
+    /// For each vertex of the input the vertex it is in now, or [`NONE`].
+    origins: Option<Vec<u32>>,
+    /// Ring of `v`: `incidence[offsets[v]..offsets[v + 1]]`, as `face << 2 | corner`.
+    offsets: Vec<u32>,
+    incidence: Vec<Face>,
+    /// Positions are multiplied by this power of two, and divided by it in the end.
+    scale: f32,
+}
+
+impl Surface {
+    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to about unit
+    /// size: squares of areas then neither overflow nor vanish in single precision. The vertex `v`
+    /// goes to `rank[v]`, if there is a rank.
+    pub(crate) fn new(mesh: &Mesh, rank: Option<&[u32]>, locked: &[u32], track_origins: bool) -> Self {
+        let scale = unit_scale(mesh.positions());
+        let count = mesh.positions().len();
+        let place = |vertex: u32| rank.map_or(vertex, |rank| rank[vertex as usize]);
+        let scaled = mesh.positions().iter().map(|&position| Vec3::from(position) * scale);
+        let mut flags = vec![0; count];
+        for &vertex in locked {
+            flags[place(vertex) as usize] |= flag::LOCKED;
+        }
+        let attributes = mesh.attributes();
+        Self {
+            positions: match rank {
+                None => scaled.collect(),
+                Some(rank) => scatter(scaled, rank),
+            },
+            faces: ordered_faces(mesh.triangles(), count, rank),
+            flags,
+            errors: vec![0.0; count],
+            attributes: match rank {
+                None => attributes.clone(),
+                Some(rank) => Attributes {
+                    normals: attributes.normals.as_ref().map(|n| scatter(n.iter().copied(), rank)),
+                    colors: attributes.colors.as_ref().map(|c| scatter(c.iter().copied(), rank)),
+                    uvs: attributes.uvs.as_ref().map(|uv| scatter(uv.iter().copied(), rank)),
+                },
+            },
+            merged: if track_origins { (0..count as u32).collect() } else { Vec::new() },
+            origins: track_origins.then(|| (0..count as u32).map(place).collect()),
+            offsets: Vec::new(),
+            incidence: Vec::new(),
+            scale,
+        }
+    }
+
+    /// Positions are the input's times this.
+    pub(crate) fn scale(&self) -> f32 {
+        self.scale
+    }
+
+    /// Builds the rings, in time linear in the faces. Within a ring, corners are in face order.
+    pub(crate) fn build_rings(&mut self, workers: &Workers) {
+        let vertices = self.positions.len();
+        let Self { faces, offsets, incidence, .. } = self;
+        offsets.clear();
+        offsets.resize(vertices + 1, 0);
+        if incidence.len() > faces.len() {
+            incidence.truncate(faces.len());
+        } else {
+            incidence.resize_with(faces.len(), Face::default);
+        }
+        // Each worker owns a range of vertices and passes over the faces; blocks of faces that do
+        // not touch its range are skipped, which in an ordered mesh is nearly all of them.
+        let ranges = if vertices > VERTEX_BLOCK { workers.count() } else { 1 };
+        let bound = |range: usize| range * vertices / ranges;
+        let spans: Vec<(u32, u32)> = if ranges == 1 {
+            vec![(0, NONE); faces.len().div_ceil(FACE_BLOCK)]
+        } else {
+            workers.map(faces.chunks(FACE_BLOCK).collect(), span)
+        };
+        let touching = |first: u32, last: u32| {
+            let blocks = faces.chunks(FACE_BLOCK).zip(&spans).enumerate();
+            blocks
+                .filter(move |(_, (_, span))| span.0 < last && span.1 >= first)
+                .map(|(index, (block, _))| (index * FACE_BLOCK, block))
+        };
+        let pieces = split(&mut offsets[..vertices], (1..ranges).map(bound));
+        let sums = workers.map(pieces.into_iter().enumerate().collect(), |(range, degrees)| {
+            let first = bound(range) as u32;
+            let own = degrees.len();
+            for (_, block) in touching(first, first + own as u32) {
+                for corner in block.iter().flatten() {
+                    if let Some(degree) = degrees.get_mut(corner.load(Relaxed).wrapping_sub(first) as usize) {
+                        *degree += 1;
+                    }
+                }
+            }
+            // Offsets count back from the end of each ring while the rings are filled.
+            degrees.iter_mut().fold(0, |sum, degree| {
+                *degree += sum;
+                *degree
+            })
+        });
+        let starts: Vec<u32> = sums
+            .iter()
+            .scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count)))
+            .collect();
+        offsets[vertices] = sums.iter().sum();
+        let pieces = split(&mut offsets[..vertices], (1..ranges).map(bound));
+        let rings = split(incidence.as_flattened_mut(), starts.iter().skip(1).map(|&start| start as usize));
+        let pieces = pieces.into_iter().zip(rings).enumerate().collect();
+        workers.map(pieces, |(range, (offsets, ring)): (usize, (&mut [u32], &mut [AtomicU32]))| {
+            let first = bound(range) as u32;
+            let last = first + offsets.len() as u32;
+            let blocks: Vec<_> = touching(first, last).collect();
+            for (base, block) in blocks.into_iter().rev() {
+                for (index, face) in block.iter().enumerate().rev() {
+                    for (corner, vertex) in face.iter().enumerate() {
+                        let vertex = vertex.load(Relaxed).wrapping_sub(first) as usize;
+                        if let Some(end) = offsets.get_mut(vertex) {
+                            *end -= 1;
+                            *ring[*end as usize].get_mut() = ((base + index) as u32) << 2 | corner as u32;
+                        }
+                    }
+                }
+            }
+            for offset in offsets {
+                *offset += starts[range];
+            }
+        });
+    }
+
+    /// Flags the vertices of borders, non-manifold edges and changes of orientation, and locks
+    /// them if asked; buries those without a face, and counts these. Needs the rings.
+    ///
+    /// In a closed and oriented ring, each neighbour is once the next corner and once the previous
+    /// one; so the hashes of the next less those of the previous cancel, and elsewhere they do so
+    /// once in 2³² rings by chance.
+    pub(crate) fn classify(&mut self, lock_boundary: bool, workers: &Workers) -> usize {
+        let Self { faces, flags, offsets, incidence, merged, .. } = self;
+        let incidence = incidence.as_flattened();
+        let (faces, offsets) = (&faces[..], &offsets[..]);
+        let blocks: Vec<(usize, &mut [u8])> = flags.chunks_mut(VERTEX_BLOCK).enumerate().collect();
+        let unreferenced = workers.map(blocks, |(block, flags)| {
+            let first = block * VERTEX_BLOCK;
+            let mut unreferenced = 0;
+            for (flags, ends) in flags.iter_mut().zip(offsets[first..].windows(2)) {
+                let ring = &incidence[ends[0] as usize..ends[1] as usize];
+                let balance = ring.iter().fold(0u32, |balance, corner| {
+                    let (next, previous) = neighbours(faces, corner.load(Relaxed));
+                    balance.wrapping_add(hash(next)).wrapping_sub(hash(previous))
+                });
+                if balance != 0 {
+                    *flags |= flag::BOUNDARY | if lock_boundary { flag::LOCKED } else { 0 };
+                }
+                if ring.is_empty() {
+                    *flags |= flag::DEAD;
+                    unreferenced += 1;
+                }
+            }
+            unreferenced
+        });
+        for (merged, flags) in merged.iter_mut().zip(flags) {
+            if *flags & flag::DEAD != 0 {
+                *merged = NONE;
+            }
+        }
+        unreferenced.into_iter().sum()
+    }
+
+    /// The whole surface as one tile.
+    pub(crate) fn whole(&mut self) -> Tile<'_> {
+        self.tiles(std::iter::empty()).remove(0)
+    }
+
+    /// The surface cut into tiles before each of the vertices `cuts`, which ascend.
+    pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
+        let whole = Tile::new(
+            &mut self.positions,
+            &mut self.flags,
+            &mut self.errors,
+            &mut self.merged,
+            &mut self.attributes,
+            &self.faces,
+            &self.offsets,
+            self.incidence.as_flattened(),
+        );
+        let mut tiles = vec![whole];
+        for cut in cuts {
+            if let Some(last) = tiles.pop() {
+                tiles.extend(last.split(cut));
+            }
+        }
+        tiles
+    }
+
+    /// Drops dead vertices and faces, keeping the order of the others, and ends the pass: no
+    /// vertex is used any more. The rings are lost.
+    pub(crate) fn compact(&mut self, workers: &Workers) {
+        let Self { positions, faces, flags, errors, attributes, merged, origins, offsets: map, incidence, .. } =
+            self;
+        map.clear();
+        map.resize(positions.len(), 0);
+        let mut kept = 0;
+        for (successor, flags) in map.iter_mut().zip(&*flags) {
+            *successor = if flags & flag::DEAD == 0 { kept } else { NONE };
+            kept += u32::from(flags & flag::DEAD == 0);
+        }
+        if let Some(origins) = origins {
+            for origin in origins.iter_mut().filter(|origin| **origin != NONE) {
+                *origin = last_merged(merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
+            }
+            merged.clear();
+            merged.extend(0..kept);
+        }
+        retain_alive(positions, flags);
+        retain_alive(errors, flags);
+        let Attributes { normals, colors, uvs } = attributes;
+        normals.iter_mut().for_each(|normals| retain_alive(normals, flags));
+        colors.iter_mut().for_each(|colors| retain_alive(colors, flags));
+        uvs.iter_mut().for_each(|uvs| retain_alive(uvs, flags));
+        flags.retain(|flags| flags & flag::DEAD == 0);
+        flags.iter_mut().for_each(|flags| *flags &= !flag::USED);
+
+        let blocks: Vec<&[Face]> = faces.chunks(FACE_BLOCK).collect();
+        let alive = |block: &&[Face]| block.iter().filter(|face| is_alive(face)).count();
+        let counts = workers.map(blocks.clone(), |block| alive(&block));
+        let ends: Vec<usize> =
+            counts.iter().scan(0, |sum, count| { *sum += count; Some(*sum) }).collect();
+        let kept = ends.last().copied().unwrap_or(0);
+        incidence.resize_with(faces.len(), Face::default);
+        let pieces = split(incidence, ends.iter().copied().take(ends.len().saturating_sub(1)));
+        let map = &map[..];
+        workers.map(blocks.into_iter().zip(pieces).collect(), |(block, into): (&[Face], &mut [Face])| {
+            for (face, into) in block.iter().filter(|face| is_alive(face)).zip(into) {
+                for (corner, into) in face.iter().zip(into) {
+                    *into.get_mut() = map[corner.load(Relaxed) as usize];
+                }
+            }
+        });
+        incidence.truncate(kept);
+        std::mem::swap(faces, incidence);
+    }
+
+    /// The surface as a mesh in the scale of the input, without vertices that no face uses; and for
+    /// each vertex of the input the vertex it is in, if that was tracked.
+    pub(crate) fn to_mesh(&self) -> Result<(Mesh, Option<Vec<u32>>), MeshError> {
+        let mut map = vec![NONE; self.positions.len()];
+        let alive = || self.faces.iter().filter(|face| is_alive(face));
+        alive().flatten().for_each(|corner| map[corner.load(Relaxed) as usize] = 0);
+        let mut used = 0;
+        for successor in map.iter_mut().filter(|successor| **successor == 0) {
+            *successor = used;
+            used += 1;
+        }
+        let unscale = 1.0 / self.scale;
+        let mut triangles = Vec::with_capacity(alive().count());
+        triangles.extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
+        let mut positions = Vec::with_capacity(used as usize);
+        positions.extend(only_used(&self.positions, &map).map(|&position| (position * unscale).to_array()));
+        let attributes = Attributes {
+            normals: self.attributes.normals.as_ref().map(|n| only_used(n, &map).copied().collect()),
+            colors: self.attributes.colors.as_ref().map(|c| only_used(c, &map).copied().collect()),
+            uvs: self.attributes.uvs.as_ref().map(|uv| only_used(uv, &map).copied().collect()),
+        };
+        let into = |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
+        let origins = self.origins.as_ref().map(|origins| origins.iter().map(into).collect());
+        Ok((Mesh::with_attributes(positions, triangles, attributes)?, origins))
+    }
+
+    /// What [`restore`](Self::restore) needs to come back to a compacted surface as it is.
+    pub(crate) fn snapshot(&self) -> Snapshot {
+        let corners = |face: &Face| face.each_ref().map(|corner| corner.load(Relaxed));
+        Snapshot {
+            positions: self.positions.clone(),
+            faces: self.faces.iter().map(corners).collect(),
+            flags: self.flags.clone(),
+            errors: self.errors.clone(),
+            attributes: self.attributes.clone(),
+            origins: self.origins.clone(),
+        }
+    }
+
+    /// Back to a snapshot. Rings are lost.
+    pub(crate) fn restore(&mut self, snapshot: Snapshot) {
+        if self.origins.is_some() {
+            self.merged = (0..snapshot.positions.len() as u32).collect();
+        }
+        self.positions = snapshot.positions;
+        self.faces = snapshot.faces.into_iter().map(|face| face.map(AtomicU32::new)).collect();
+        self.flags = snapshot.flags;
+        self.errors = snapshot.errors;
+        self.attributes = snapshot.attributes;
+        self.origins = snapshot.origins;
+    }
+
+    /// Gives the rings' memory back.
+    pub(crate) fn drop_rings(&mut self) {
+        self.offsets = Vec::new();
+        self.incidence = Vec::new();
+    }
+}
+
+/// Whether a face has not been collapsed.
+#[inline(always)]
+pub(crate) fn is_alive(face: &Face) -> bool {
+    face[0].load(Relaxed) != face[1].load(Relaxed)
+}
+
+/// The corners after and before `corner`, which is `face << 2 | corner`.
+#[inline(always)]
+pub(crate) fn neighbours(faces: &[Face], corner: u32) -> (u32, u32) {
+    const NEXT: [usize; 4] = [1, 2, 0, 0];
+    const PREVIOUS: [usize; 4] = [2, 0, 1, 0];
+    let face = &faces[(corner >> 2) as usize];
+    let corner = (corner & 3) as usize;
+    (face[NEXT[corner]].load(Relaxed), face[PREVIOUS[corner]].load(Relaxed))
+}
+
+/// The end of the chain of collapses that starts at `origin`, unless it vanished.
+fn last_merged(merged: &[u32], origin: u32) -> Option<u32> {
+    let mut vertex = origin;
+    while vertex != NONE && merged[vertex as usize] != vertex {
+        vertex = merged[vertex as usize];
+    }
+    (vertex != NONE).then_some(vertex)
+}
+
+/// A power of two that brings the longest side of the bounding box to between 1 and 2, without
+/// letting a coordinate overflow.
+fn unit_scale(positions: &[[f32; 3]]) -> f32 {
+    let infinite = Vec3::splat(f32::INFINITY);
+    let corners = positions.iter().map(|&position| Vec3::from(position));
+    let (low, high) =
+        corners.fold((infinite, -infinite), |(low, high), corner| (low.min(corner), high.max(corner)));
+    // In double precision: the difference of two finite coordinates may overflow in single.
+    let extent = (high.as_dvec3() - low.as_dvec3()).max_element();
+    let largest = f64::from(low.abs().max(high.abs()).max_element());
+    if !(extent > 0.0 && extent.is_finite()) {
+        return 1.0;
+    }
+    let exponent = (-extent.log2().floor()).min(100.0 - largest.log2().ceil()).clamp(-126.0, 126.0);
+    f32::exp2(exponent as f32)
+}
+
+/// `values[v]` goes to `rank[v]`.
+fn scatter<T: Copy + Default>(values: impl ExactSizeIterator<Item = T>, rank: &[u32]) -> Vec<T> {
+    let mut scattered = vec![T::default(); rank.len()];
+    for (value, &place) in values.zip(rank) {
+        scattered[place as usize] = value;
+    }
+    scattered
+}
+
+/// The triangles with three corners, renamed by `rank`, if there is one, and then sorted into
+/// buckets of 64 vertices by their first vertex, so that faces lie in memory as their vertices do.
+fn ordered_faces(triangles: &[[u32; 3]], vertices: usize, rank: Option<&[u32]>) -> Vec<Face> {
+    let whole = |&&[a, b, c]: &&[u32; 3]| a != b && b != c && c != a;
+    let count = triangles.iter().filter(whole).count();
+    let mut faces = Vec::with_capacity(count);
+    let Some(rank) = rank else {
+        faces.extend(triangles.iter().filter(whole).map(|triangle| triangle.map(AtomicU32::new)));
+        return faces;
+    };
+    let renamed = |triangle: &[u32; 3]| triangle.map(|vertex| rank[vertex as usize]);
+    let bucket = |face: [u32; 3]| (face[0].min(face[1]).min(face[2]) >> 6) as usize;
+    let mut starts = vec![0u32; (vertices >> 6) + 2];
+    triangles.iter().filter(whole).for_each(|triangle| starts[bucket(renamed(triangle)) + 1] += 1);
+    for index in 1..starts.len() {
+        starts[index] += starts[index - 1];
+    }
+    faces.resize_with(count, Face::default);
+    for triangle in triangles.iter().filter(whole) {
+        let face = renamed(triangle);
+        let start = &mut starts[bucket(face)];
+        faces[*start as usize] = face.map(AtomicU32::new);
+        *start += 1;
+    }
+    faces
+}
+
+/// The smallest and the largest vertex of the faces.
+fn span(faces: &[Face]) -> (u32, u32) {
+    let corners = faces.iter().flatten().map(|corner| corner.load(Relaxed));
+    corners.fold((NONE, 0), |(low, high), corner| (low.min(corner), high.max(corner)))
+}
+
+/// Cuts a slice before each of `cuts`, which ascend.
+fn split<T>(slice: &mut [T], cuts: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
+    let mut pieces = Vec::new();
+    let (mut rest, mut first) = (slice, 0);
+    for cut in cuts {
+        let (piece, tail) = rest.split_at_mut(cut - first);
+        pieces.push(piece);
+        (rest, first) = (tail, cut);
+    }
+    pieces.push(rest);
+    pieces
+}
+
+fn retain_alive<T>(values: &mut Vec<T>, flags: &[u8]) {
+    let mut flags = flags.iter();
+    values.retain(|_| flags.next().is_some_and(|flags| flags & flag::DEAD == 0));
+}
+
+fn only_used<'a, T>(values: &'a [T], map: &'a [u32]) -> impl Iterator<Item = &'a T> {
+    values.iter().zip(map).filter(|(_, successor)| **successor != NONE).map(|(value, _)| value)
+}
+
+fn hash(vertex: u32) -> u32 {
+    let mixed = vertex.wrapping_mul(0x9E37_79B1);
+    mixed ^ mixed >> 15
+}

@@ -1,0 +1,240 @@
+//! A run of vertices that one thread works on: what a pass may touch.
+//!
+//! A tile holds the positions, flags, errors and attributes of its own vertices alone. It sees all
+//! faces, but changes only those with all three corners in the tile: these no other tile changes,
+//! and a face between tiles nobody does. A ring that leaves the tile is not gathered at all. So
+//! tiles can work side by side without locks, and what each does depends on nothing the others do.
+
+use super::ring::Ring;
+use super::surface::{Face, NONE, flag, neighbours};
+use super::{Collapse, Edge, Rules};
+use crate::mesh::Attributes;
+use crate::quadric::Quadric;
+use glam::{Vec2, Vec3};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Rings with more faces are left to the final heap: the pairwise comparison of two rings in the
+/// link condition is quadratic.
+const MAX_DEGREE: usize = 64;
+
+/// A run of vertices, with the faces of the whole surface. See the [module](self).
+pub(crate) struct Tile<'a> {
+    first: u32,
+    positions: &'a mut [Vec3],
+    flags: &'a mut [u8],
+    errors: &'a mut [f32],
+    merged: &'a mut [u32],
+    normals: &'a mut [[f32; 3]],
+    colors: &'a mut [[u8; 4]],
+    uvs: &'a mut [[f32; 2]],
+    faces: &'a [Face],
+    offsets: &'a [u32],
+    incidence: &'a [AtomicU32],
+}
+
+/// Room to work in, one a thread.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    pub(crate) source: Ring,
+    pub(crate) target: Ring,
+    neighbours: [Vec<u32>; 2],
+}
+
+impl<'a> Tile<'a> {
+    /// A tile of all vertices.
+    #[expect(clippy::too_many_arguments, reason = "called once, by the surface, with all it has")]
+    pub(crate) fn new(
+        positions: &'a mut [Vec3],
+        flags: &'a mut [u8],
+        errors: &'a mut [f32],
+        merged: &'a mut [u32],
+        attributes: &'a mut Attributes,
+        faces: &'a [Face],
+        offsets: &'a [u32],
+        incidence: &'a [AtomicU32],
+    ) -> Self {
+        Self {
+            first: 0,
+            positions,
+            flags,
+            errors,
+            merged,
+            normals: attributes.normals.as_deref_mut().unwrap_or_default(),
+            colors: attributes.colors.as_deref_mut().unwrap_or_default(),
+            uvs: attributes.uvs.as_deref_mut().unwrap_or_default(),
+            faces,
+            offsets,
+            incidence,
+        }
+    }
+
+    /// Two tiles, the second from vertex `cut` on.
+    pub(crate) fn split(self, cut: usize) -> [Self; 2] {
+        let middle = cut - self.first as usize;
+        let (positions, positions_after) = self.positions.split_at_mut(middle);
+        let (flags, flags_after) = self.flags.split_at_mut(middle);
+        let (errors, errors_after) = self.errors.split_at_mut(middle);
+        // What is not carried is empty on both sides.
+        let (merged, merged_after) = self.merged.split_at_mut(middle.min(self.merged.len()));
+        let (normals, normals_after) = self.normals.split_at_mut(middle.min(self.normals.len()));
+        let (colors, colors_after) = self.colors.split_at_mut(middle.min(self.colors.len()));
+        let (uvs, uvs_after) = self.uvs.split_at_mut(middle.min(self.uvs.len()));
+        let (faces, offsets, incidence) = (self.faces, self.offsets, self.incidence);
+        let first = cut as u32;
+        [
+            Self { first: self.first, positions, flags, errors, merged, normals, colors, uvs, faces, offsets, incidence },
+            Self {
+                first,
+                positions: positions_after,
+                flags: flags_after,
+                errors: errors_after,
+                merged: merged_after,
+                normals: normals_after,
+                colors: colors_after,
+                uvs: uvs_after,
+                faces,
+                offsets,
+                incidence,
+            },
+        ]
+    }
+
+    /// The tile's vertices.
+    pub(crate) fn vertices(&self) -> std::ops::Range<u32> {
+        self.first..self.first + self.positions.len() as u32
+    }
+
+    pub(crate) fn flags(&self, vertex: u32) -> u8 {
+        self.flags[(vertex - self.first) as usize]
+    }
+
+    pub(crate) fn flags_mut(&mut self, vertex: u32) -> &mut u8 {
+        &mut self.flags[(vertex - self.first) as usize]
+    }
+
+    #[inline(always)]
+    fn position(&self, vertex: u32) -> Option<Vec3> {
+        self.positions.get(vertex.wrapping_sub(self.first) as usize).copied()
+    }
+
+    #[inline(always)]
+    fn corners(&self, vertex: u32) -> &'a [AtomicU32] {
+        &self.incidence[self.offsets[vertex as usize] as usize..self.offsets[vertex as usize + 1] as usize]
+    }
+
+    /// How many faces the ring of `vertex` had when the pass began.
+    pub(crate) fn degree(&self, vertex: u32) -> usize {
+        self.corners(vertex).len()
+    }
+
+    /// Gathers the ring of `vertex`; `false` if it leaves the tile or is too large.
+    #[inline(always)]
+    pub(crate) fn gather(&self, vertex: u32, ring: &mut Ring) -> bool {
+        let corners = self.corners(vertex);
+        let (Some(origin), true) = (self.position(vertex), corners.len() <= MAX_DEGREE) else {
+            return false;
+        };
+        ring.begin(vertex, self.flags(vertex) & flag::BOUNDARY != 0, corners.len());
+        let mut quadric = Quadric::default();
+        for corner in corners {
+            let corner = corner.load(Relaxed);
+            if !super::surface::is_alive(&self.faces[(corner >> 2) as usize]) {
+                continue;
+            }
+            let (next, previous) = neighbours(self.faces, corner);
+            let (Some(next_position), Some(previous_position)) = (self.position(next), self.position(previous))
+            else {
+                return false;
+            };
+            ring.push(&mut quadric, next, previous, next_position - origin, previous_position - origin);
+        }
+        ring.finish(quadric);
+        true
+    }
+
+    /// Collapses `scratch.source`, which has been gathered, into `target`, if the rules allow it:
+    /// the number of faces that this removed.
+    #[inline(always)]
+    pub(crate) fn collapse(&mut self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<usize> {
+        let source = scratch.source.vertex;
+        let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
+        if (self.flags[from] | self.flags[into]) & (flag::USED | flag::DEAD) != 0
+            || !self.gather(target, &mut scratch.target)
+        {
+            return None;
+        }
+        let edge = Edge {
+            source: &scratch.source,
+            target: &scratch.target,
+            source_position: self.positions[from],
+            target_position: self.positions[into],
+            target_locked: self.flags[into] & flag::LOCKED != 0,
+            error: self.errors[from].max(self.errors[into]),
+        };
+        let collapse = edge.collapse(rules, &mut scratch.neighbours)?;
+        Some(self.execute(source, target, &collapse))
+    }
+
+    fn execute(&mut self, source: u32, target: u32, collapse: &Collapse) -> usize {
+        let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
+        let mut removed = 0;
+        for corner in self.corners(source) {
+            let corner = corner.load(Relaxed);
+            let face = &self.faces[(corner >> 2) as usize];
+            if !super::surface::is_alive(face) {
+                continue;
+            }
+            let (next, previous) = neighbours(self.faces, corner);
+            if next == target || previous == target {
+                face[1].store(face[0].load(Relaxed), Relaxed);
+                removed += 1;
+            } else {
+                face[(corner & 3) as usize].store(target, Relaxed);
+            }
+        }
+        self.positions[into] = collapse.position;
+        self.errors[into] = collapse.error;
+        self.flags[into] |= self.flags[from] & flag::BOUNDARY | flag::USED;
+        self.flags[from] |= flag::DEAD;
+        if let Some(merged) = self.merged.get_mut(from) {
+            *merged = target;
+        }
+        blend_attributes(self.normals, self.colors, self.uvs, [from, into], collapse.along);
+        removed
+    }
+
+    /// Marks a vertex without faces as gone.
+    pub(crate) fn bury(&mut self, vertex: u32) {
+        let vertex = (vertex - self.first) as usize;
+        self.flags[vertex] |= flag::DEAD;
+        if let Some(merged) = self.merged.get_mut(vertex) {
+            *merged = NONE;
+        }
+    }
+}
+
+/// Gives the vertex `into` what lies `along` the way to it from the vertex `from`.
+pub(crate) fn blend_attributes(
+    normals: &mut [[f32; 3]],
+    colors: &mut [[u8; 4]],
+    uvs: &mut [[f32; 2]],
+    [from, into]: [usize; 2],
+    along: f32,
+) {
+    if !normals.is_empty() {
+        let blend = Vec3::from(normals[from]).lerp(Vec3::from(normals[into]), along);
+        // Opposite normals may cancel: then the target's stays.
+        if let Some(unit) = blend.try_normalize() {
+            normals[into] = unit.to_array();
+        }
+    }
+    if !colors.is_empty() {
+        for channel in 0..4 {
+            let (from, into) = (colors[from][channel], &mut colors[into][channel]);
+            *into = (f32::from(from) + along * (f32::from(*into) - f32::from(from))).round() as u8;
+        }
+    }
+    if !uvs.is_empty() {
+        uvs[into] = Vec2::from(uvs[from]).lerp(Vec2::from(uvs[into]), along).to_array();
+    }
+}

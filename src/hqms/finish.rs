@@ -1,0 +1,439 @@
+//! The end of a run: a heap of exact costs over what little is left.
+//!
+//! Where few triangles remain, each collapse matters and the cost at the neighbour is too crude.
+//! Here every edge costs what its optimal placement costs (equation 5 of the paper, solved for each
+//! edge), quadrics come from the faces as they are at that moment (memoryless, as in Lindstrom and
+//! Turk), and a queue of vertices gives the globally cheapest edge each time. About 3 µs a collapse,
+//! ten times a pass: so it begins near the target only.
+//!
+//! This is also where a run ends that is stuck: with [`Rules::any_topology`] the link condition no
+//! longer holds, holes close, and small components vanish whole.
+
+use super::goal::{Counts, Goal};
+use crate::collapse::queue::Queue;
+use crate::collapse::ring::Ring;
+use crate::collapse::surface::{NONE, Surface, flag, is_alive, neighbours};
+use crate::collapse::tile::blend_attributes;
+use crate::collapse::{Collapse, Edge, Rules};
+use crate::monitor::Cancelled;
+use crate::quadric::{Quadric, place};
+use std::sync::atomic::Ordering::Relaxed;
+
+/// Rings with more faces wait until their neighbours have gone: to update them at each collapse
+/// around them would take time quadratic in their size.
+const MAX_DEGREE: usize = 512;
+/// Collapses between two looks at the monitor.
+const BATCH: usize = 1024;
+
+/// The edge at which a vertex is cheapest to collapse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Candidate {
+    cost: f32,
+    partner: u32,
+}
+
+const IMPOSSIBLE: Candidate = Candidate { cost: f32::INFINITY, partner: NONE };
+
+/// A surface with rings that follow each collapse, and the queue of its vertices.
+pub(crate) struct Finish<'a> {
+    surface: &'a mut Surface,
+    rules: &'a Rules,
+    /// The first corner of each vertex, as `face << 2 | corner`, and for each corner the next one
+    /// of its vertex: rings as linked lists, which join in no time.
+    first: Vec<u32>,
+    next: Vec<u32>,
+    quadrics: Vec<Quadric>,
+    candidates: Vec<Candidate>,
+    queue: Queue,
+    /// The collapse in which a vertex was last among those whose quadrics changed.
+    changed: Vec<u32>,
+    stamp: u32,
+    scratch: Scratch,
+}
+
+#[derive(Default)]
+struct Scratch {
+    source: Ring,
+    target: Ring,
+    source_corners: Vec<u32>,
+    target_corners: Vec<u32>,
+    neighbours: [Vec<u32>; 2],
+}
+
+impl<'a> Finish<'a> {
+    /// Takes over a compacted surface.
+    pub(crate) fn new(surface: &'a mut Surface, rules: &'a Rules) -> Self {
+        let vertices = surface.positions.len();
+        let mut first = vec![NONE; vertices];
+        let mut next = vec![NONE; 4 * surface.faces.len()];
+        // Backwards, so that the lists are in face order.
+        for (index, face) in surface.faces.iter().enumerate().rev() {
+            for (corner, vertex) in face.iter().enumerate() {
+                let name = index << 2 | corner;
+                next[name] = std::mem::replace(&mut first[vertex.load(Relaxed) as usize], name as u32);
+            }
+        }
+        let mut finish = Self {
+            surface,
+            rules,
+            first,
+            next,
+            quadrics: vec![Quadric::default(); vertices],
+            candidates: vec![IMPOSSIBLE; vertices],
+            queue: Queue::new(vertices),
+            changed: vec![0; vertices],
+            stamp: 0,
+            scratch: Scratch::default(),
+        };
+        for vertex in 0..vertices as u32 {
+            finish.refresh(vertex);
+        }
+        let mut around = Vec::new();
+        for vertex in 0..vertices as u32 {
+            finish.gather_neighbours(vertex, &mut around);
+            finish.choose(vertex, &around, None);
+        }
+        finish
+    }
+
+    /// Collapses edges until the goal is met or nothing is left that the rules allow. The surface
+    /// is to be compacted afterwards.
+    pub(crate) fn run(
+        mut self,
+        counts: Counts,
+        goal: Goal,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<Counts, Cancelled> {
+        let mut removed = Counts::default();
+        let mut collapses = 0;
+        let mut around = Vec::new();
+        while goal.measure(removed) < goal.excess(counts)
+            && let Some((_, vertex)) = self.queue.first()
+        {
+            let left = goal.excess(counts) - goal.measure(removed);
+            let candidate = self.candidates[vertex as usize];
+            match self.try_collapse(vertex, candidate.partner, goal, left) {
+                Some(of_collapse) => {
+                    removed.add(of_collapse);
+                    collapses += 1;
+                    if collapses % BATCH == 0 {
+                        report(removed)?;
+                    }
+                }
+                None => {
+                    self.gather_neighbours(vertex, &mut around);
+                    self.choose(vertex, &around, Some(candidate));
+                }
+            }
+        }
+        Ok(removed)
+    }
+
+    /// Gathers the ring of `vertex`, and the corners it consists of. Faces that have died leave the
+    /// list. Whether the ring is a border's is decided anew, as holes close and open here.
+    fn gather(&mut self, vertex: u32, ring: &mut Ring, corners: &mut Vec<u32>) {
+        corners.clear();
+        let mut boundary = 0u32;
+        let (mut corner, mut last) = (self.first[vertex as usize], NONE);
+        while corner != NONE {
+            let after = self.next[corner as usize];
+            if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
+                corners.push(corner);
+                last = corner;
+            } else if last == NONE {
+                self.first[vertex as usize] = after;
+            } else {
+                self.next[last as usize] = after;
+            }
+            corner = after;
+        }
+        for &corner in &*corners {
+            let (next, previous) = neighbours(&self.surface.faces, corner);
+            let mix = |vertex: u32| (vertex ^ vertex >> 15).wrapping_mul(0x9E37_79B1);
+            boundary = boundary.wrapping_add(mix(next)).wrapping_sub(mix(previous));
+        }
+        ring.begin(vertex, boundary != 0, corners.len());
+        let position = |vertex: u32| self.surface.positions[vertex as usize];
+        let origin = position(vertex);
+        let mut quadric = Quadric::default();
+        for &corner in &*corners {
+            let (next, previous) = neighbours(&self.surface.faces, corner);
+            ring.push(&mut quadric, next, previous, position(next) - origin, position(previous) - origin);
+        }
+        ring.finish(quadric);
+    }
+
+    /// Renews what is known about a vertex whose ring has changed; `false` if no face is left.
+    fn refresh(&mut self, vertex: u32) -> bool {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
+        let ring = &scratch.source;
+        let flags = &mut self.surface.flags[vertex as usize];
+        *flags = *flags & !flag::BOUNDARY | if ring.boundary { flag::BOUNDARY } else { 0 };
+        self.quadrics[vertex as usize] = ring.quadric;
+        let alive = !ring.is_empty();
+        self.scratch = scratch;
+        alive
+    }
+
+    /// The neighbours of `vertex`, once or twice each.
+    fn gather_neighbours(&self, vertex: u32, around: &mut Vec<u32>) {
+        around.clear();
+        let open = self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
+        let mut corner = self.first[vertex as usize];
+        while corner != NONE {
+            if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
+                let (next, previous) = neighbours(&self.surface.faces, corner);
+                around.push(next);
+                if open {
+                    around.push(previous);
+                }
+            }
+            corner = self.next[corner as usize];
+        }
+    }
+
+    fn is_locked(&self, vertex: u32) -> bool {
+        self.surface.flags[vertex as usize] & flag::LOCKED != 0
+    }
+
+    /// The cost of the edge, the same from both of its ends to the last bit.
+    fn cost(&self, a: u32, b: u32) -> f32 {
+        let (a, b) = (a.min(b), a.max(b));
+        let edge = self.surface.positions[b as usize] - self.surface.positions[a as usize];
+        let (of_a, of_b) = (&self.quadrics[a as usize], &self.quadrics[b as usize]);
+        let cost = match (self.is_locked(a), self.is_locked(b)) {
+            (false, false) => place(of_a, of_b, edge).cost,
+            (false, true) => of_a.at(edge),
+            (true, false) => of_b.at(-edge),
+            (true, true) => f32::INFINITY,
+        };
+        if cost.is_nan() { f32::INFINITY } else { cost }
+    }
+
+    /// Finds the cheapest edge of `vertex` among those to `around`, or the next one after `failed`,
+    /// and puts it in the queue.
+    fn choose(&mut self, vertex: u32, around: &[u32], failed: Option<Candidate>) {
+        let order = |candidate: &Candidate| (candidate.cost.to_bits(), candidate.partner);
+        let mut best = IMPOSSIBLE;
+        if around.len() <= MAX_DEGREE {
+            for &partner in around {
+                let candidate = Candidate { cost: self.cost(vertex, partner), partner };
+                let possible = failed.is_none_or(|failed| order(&failed) < order(&candidate));
+                if possible && order(&candidate) < order(&best) {
+                    best = candidate;
+                }
+            }
+        }
+        self.set(vertex, best);
+    }
+
+    fn set(&mut self, vertex: u32, candidate: Candidate) {
+        self.candidates[vertex as usize] = candidate;
+        self.queue.set(vertex, candidate.cost);
+    }
+
+    /// Collapses the edge, if the rules allow it and no more than `left` goes (one triangle more
+    /// where it must be two), and brings all around up to date.
+    fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal, left: usize) -> Option<Counts> {
+        let (source, target) = if self.is_locked(vertex) { (partner, vertex) } else { (vertex, partner) };
+        let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather(source, &mut scratch.source, &mut scratch.source_corners);
+        self.gather(target, &mut scratch.target, &mut scratch.target_corners);
+        let outcome = self.collapse_gathered(source, target, goal, left, &mut scratch);
+        let mut removed = match outcome {
+            None => {
+                self.scratch = scratch;
+                return None;
+            }
+            Some(faces) => Counts { faces, vertices: 1 },
+        };
+        scratch.source.neighbours(&mut scratch.neighbours[0]);
+        scratch.target.neighbours(&mut scratch.neighbours[1]);
+        let [mut around, other] = std::mem::take(&mut scratch.neighbours);
+        around.extend(&other);
+        around.retain(|&vertex| vertex != source);
+        around.push(target);
+        around.sort_unstable();
+        around.dedup();
+        scratch.neighbours = [Vec::new(), other];
+        self.scratch = scratch;
+
+        self.set(source, IMPOSSIBLE);
+        around.retain(|&vertex| {
+            let alive = self.refresh(vertex);
+            if !alive {
+                removed.vertices += 1;
+                self.bury(vertex);
+            }
+            alive
+        });
+        self.update(&around);
+        self.scratch.neighbours[0] = around;
+        Some(removed)
+    }
+
+    fn collapse_gathered(
+        &mut self,
+        source: u32,
+        target: u32,
+        goal: Goal,
+        left: usize,
+        scratch: &mut Scratch,
+    ) -> Option<usize> {
+        let Scratch { source: source_ring, target: target_ring, source_corners, target_corners, neighbours } =
+            scratch;
+        let (from, into) = (source as usize, target as usize);
+        let errors = &self.surface.errors;
+        let edge = Edge {
+            source: source_ring,
+            target: target_ring,
+            source_position: self.surface.positions[from],
+            target_position: self.surface.positions[into],
+            target_locked: self.is_locked(target),
+            error: errors[from].max(errors[into]),
+        };
+        let collapse = edge.collapse(self.rules, neighbours)?;
+        // Faces of the two rings that come to lie on each other.
+        let mut doomed = Vec::new();
+        if self.rules.any_topology {
+            doomed = self.coincident(source_ring, target_ring, source_corners, target_corners)?;
+        }
+        let shared = |spoke: &&crate::collapse::ring::Spoke| spoke.next == target || spoke.previous == target;
+        let faces = source_ring.spokes().iter().filter(shared).count() + doomed.len();
+        // The last collapse may take one face too many, not more.
+        if matches!(goal, Goal::Faces(_)) && faces > left + 1 {
+            return None;
+        }
+        for face in doomed {
+            self.kill(face);
+        }
+        self.execute(source, target, &collapse, source_corners);
+        Some(faces)
+    }
+
+    /// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
+    /// the faces that would then lie on each other: both go if they face each other, one if not.
+    fn coincident(
+        &self,
+        source: &Ring,
+        target: &Ring,
+        source_corners: &[u32],
+        target_corners: &[u32],
+    ) -> Option<Vec<u32>> {
+        let mut doomed = Vec::new();
+        for (of_source, corner) in source.spokes().iter().zip(source_corners) {
+            for (of_target, other) in target.spokes().iter().zip(target_corners) {
+                let same = of_source.next == of_target.next && of_source.previous == of_target.previous;
+                let opposite = of_source.next == of_target.previous && of_source.previous == of_target.next;
+                if same || opposite {
+                    doomed.push(corner >> 2);
+                }
+                if opposite {
+                    doomed.push(other >> 2);
+                }
+            }
+        }
+        doomed.sort_unstable();
+        doomed.dedup();
+        let count = |ring: &Ring, corners: &[u32], vertex: u32, avoid: u32| {
+            let faces = ring.spokes().iter().zip(corners);
+            faces
+                .filter(|(spoke, corner)| {
+                    (spoke.next == vertex || spoke.previous == vertex)
+                        && spoke.next != avoid
+                        && spoke.previous != avoid
+                        && doomed.binary_search(&(*corner >> 2)).is_err()
+                })
+                .count()
+        };
+        let overfull = |vertex: u32| {
+            let of_source = count(source, source_corners, vertex, target.vertex);
+            let of_target = count(target, target_corners, vertex, source.vertex);
+            of_source > 0 && of_target > 0 && of_source + of_target > 2
+        };
+        let manifold = source.spokes().iter().all(|spoke| {
+            [spoke.next, spoke.previous].iter().all(|&vertex| vertex == target.vertex || !overfull(vertex))
+        });
+        manifold.then_some(doomed)
+    }
+
+    fn kill(&mut self, face: u32) {
+        let face = &self.surface.faces[face as usize];
+        face[1].store(face[0].load(Relaxed), Relaxed);
+    }
+
+    fn execute(&mut self, source: u32, target: u32, collapse: &Collapse, source_corners: &[u32]) {
+        let (from, into) = (source as usize, target as usize);
+        for &corner in source_corners {
+            let face = &self.surface.faces[(corner >> 2) as usize];
+            if !is_alive(face) {
+                continue;
+            }
+            let (next, previous) = neighbours(&self.surface.faces, corner);
+            if next == target || previous == target {
+                self.kill(corner >> 2);
+            } else {
+                face[(corner & 3) as usize].store(target, Relaxed);
+                self.next[corner as usize] = std::mem::replace(&mut self.first[into], corner);
+            }
+        }
+        self.first[from] = NONE;
+        let surface = &mut *self.surface;
+        surface.positions[into] = collapse.position;
+        surface.errors[into] = collapse.error;
+        surface.flags[from] |= flag::DEAD;
+        if let Some(merged) = surface.merged.get_mut(from) {
+            *merged = target;
+        }
+        let attributes = &mut surface.attributes;
+        blend_attributes(
+            attributes.normals.as_deref_mut().unwrap_or_default(),
+            attributes.colors.as_deref_mut().unwrap_or_default(),
+            attributes.uvs.as_deref_mut().unwrap_or_default(),
+            [from, into],
+            collapse.along,
+        );
+    }
+
+    fn bury(&mut self, vertex: u32) {
+        self.surface.flags[vertex as usize] |= flag::DEAD;
+        if let Some(merged) = self.surface.merged.get_mut(vertex as usize) {
+            *merged = NONE;
+        }
+        self.set(vertex, IMPOSSIBLE);
+    }
+
+    /// Renews the candidates after the quadrics of `around` have changed: theirs, and those of the
+    /// vertices beyond whose cheapest edge led here or should now.
+    fn update(&mut self, around: &[u32]) {
+        self.stamp += 1;
+        for &vertex in around {
+            self.changed[vertex as usize] = self.stamp;
+        }
+        let mut ring = Vec::new();
+        let mut beyond = Vec::new();
+        for &vertex in around {
+            self.gather_neighbours(vertex, &mut ring);
+            self.choose(vertex, &ring, None);
+            for &outer in ring.iter().filter(|&&outer| self.changed[outer as usize] != self.stamp) {
+                beyond.push((outer, vertex));
+            }
+        }
+        for (outer, vertex) in beyond {
+            if self.changed[outer as usize] == self.stamp {
+                continue;
+            }
+            let cost = self.cost(outer, vertex);
+            let candidate = self.candidates[outer as usize];
+            let led_here = self.changed.get(candidate.partner as usize) == Some(&self.stamp);
+            if led_here || self.surface.flags.get(candidate.partner as usize).is_some_and(|f| f & flag::DEAD != 0) {
+                self.gather_neighbours(outer, &mut ring);
+                self.choose(outer, &ring, None);
+                self.changed[outer as usize] = self.stamp;
+            } else if cost < candidate.cost {
+                self.set(outer, Candidate { cost, partner: vertex });
+            }
+        }
+    }
+}

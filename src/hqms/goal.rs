@@ -1,0 +1,82 @@
+//! What is left to remove.
+
+use super::Target;
+use crate::mesh::Mesh;
+
+/// How much a surface has, or lost.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) faces: usize,
+    pub(crate) vertices: usize,
+}
+
+impl Counts {
+    pub(crate) fn remove(&mut self, removed: Self) {
+        self.faces -= removed.faces;
+        self.vertices -= removed.vertices;
+    }
+
+    pub(crate) fn add(&mut self, more: Self) {
+        self.faces += more.faces;
+        self.vertices += more.vertices;
+    }
+}
+
+/// A target, in the units of the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Goal {
+    Faces(usize),
+    Vertices(usize),
+    /// As few as the rules' error limit allows.
+    Fewest,
+}
+
+impl Goal {
+    pub(crate) fn new(target: Target, mesh: &Mesh) -> Self {
+        match target {
+            Target::Triangles(count) => Self::Faces(count),
+            Target::Vertices(count) => Self::Vertices(count),
+            Target::Ratio(ratio) => Self::Faces((mesh.triangles().len() as f64 * ratio) as usize),
+            Target::MaxError(_) => Self::Fewest,
+        }
+    }
+
+    /// How many faces or vertices, as the goal has it, are left to remove.
+    pub(crate) fn excess(self, counts: Counts) -> usize {
+        match self {
+            Self::Faces(count) => counts.faces.saturating_sub(count),
+            Self::Vertices(count) => counts.vertices.saturating_sub(count),
+            Self::Fewest => counts.faces,
+        }
+    }
+
+    /// How many collapses that takes: one removes one vertex and mostly two faces.
+    pub(crate) fn collapses(self, counts: Counts) -> usize {
+        match self {
+            Self::Faces(_) | Self::Fewest => self.excess(counts).div_ceil(2),
+            Self::Vertices(_) => self.excess(counts),
+        }
+    }
+
+    /// How many times larger than the goal the surface is, if that can be known.
+    pub(crate) fn ratio(self, counts: Counts) -> Option<f32> {
+        match self {
+            Self::Faces(count) => Some(counts.faces as f32 / count.max(1) as f32),
+            Self::Vertices(count) => Some(counts.vertices as f32 / count.max(1) as f32),
+            Self::Fewest => None,
+        }
+    }
+
+    /// `removed` in the unit of the goal.
+    pub(crate) fn measure(self, removed: Counts) -> usize {
+        match self {
+            Self::Faces(_) | Self::Fewest => removed.faces,
+            Self::Vertices(_) => removed.vertices,
+        }
+    }
+
+    /// The most that one collapse inside the mesh takes away.
+    pub(crate) fn step(self) -> usize {
+        self.measure(Counts { faces: 2, vertices: 1 })
+    }
+}

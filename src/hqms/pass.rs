@@ -1,0 +1,210 @@
+//! One pass of the default selection: every collapse cheaper than a sampled quantile.
+//!
+//! Section 3.3 of the paper streams the vertices through a heap of 15 records and executes what
+//! comes out. So small a heap gives nearly no global order: the measured error is twice that of a
+//! full sort. A threshold that is a quantile of all costs, estimated from a few thousand of them,
+//! gives the order of a full sort for the price of a comparison, and needs no record at all.
+//! What is kept of the paper's pipeline: quadrics from the faces of the pass alone, the cost at the
+//! neighbour with the placement solved only when a collapse is executed, each vertex in at most
+//! one collapse a pass, the vertices visited in their order.
+
+use super::goal::{Counts, Goal};
+use crate::collapse::Rules;
+use crate::collapse::surface::{Surface, flag};
+use crate::collapse::tile::{Scratch, Tile};
+use crate::monitor::Cancelled;
+use crate::workers::Workers;
+
+/// Vertices in a tile: large enough that few rings leave it, small enough to fit the cache and to
+/// give every thread several.
+pub(crate) const TILE: usize = 16384;
+/// Tiles between two looks at the monitor.
+const BATCH: usize = 32;
+/// A share of the vertices below which a pass is slow: tiles are then given up, in case it is
+/// their borders that hold the rest.
+const SLOW: f32 = 0.02;
+/// No vertex has this cost: the bits of costs are below it.
+const UNUSABLE: u32 = u32::MAX;
+
+/// The state that a run carries from pass to pass.
+pub(crate) struct Threshold {
+    passes: usize,
+    /// Collapses of the last pass as a share of those below its threshold.
+    yielded: f32,
+    slow: bool,
+}
+
+impl Threshold {
+    pub(crate) fn new() -> Self {
+        Self { passes: 0, yielded: 0.5, slow: false }
+    }
+
+    /// One pass over a surface with rings. Removes at most the goal's excess.
+    pub(crate) fn pass(
+        &mut self,
+        surface: &mut Surface,
+        counts: Counts,
+        goal: Goal,
+        rules: &Rules,
+        workers: &Workers,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<Counts, Cancelled> {
+        let vertices = surface.positions.len();
+        // Far from the goal a coarser order does: what is taken too early here would be taken
+        // later anyway.
+        let far = goal.ratio(counts).is_some_and(|ratio| ratio > 4.0);
+        let share = if far { 0.8 } else { 0.5 };
+        let wanted = goal.collapses(counts) as f32 / vertices as f32;
+        let samples = sample(surface, wanted < 0.1, workers);
+        let usable = samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
+        let quantile = f32::min(share * usable, 0.8 * wanted / self.yielded.max(0.5));
+        let threshold = threshold(&samples, quantile);
+        let single = vertices < 2 * TILE || self.slow;
+        let shift = if self.passes % 2 == 1 { TILE / 2 } else { 0 };
+        let cuts = (1..).map(|tile| tile * TILE - shift).take_while(|&cut| !single && cut < vertices);
+        let tiles = surface.tiles(cuts);
+        let budgets = budgets(&tiles, &samples, threshold, goal, goal.excess(counts));
+
+        let mut removed = Counts::default();
+        let mut work: Vec<(Tile, usize)> = tiles.into_iter().zip(budgets).collect();
+        while !work.is_empty() {
+            let batch = work.drain(..BATCH.min(work.len())).collect();
+            let sweep = |(mut tile, budget): (Tile, usize)| sweep(&mut tile, threshold, goal, budget, rules);
+            workers.map(batch, sweep).into_iter().for_each(|of_tile| removed.add(of_tile));
+            report(removed)?;
+        }
+        let share = removed.vertices as f32 / vertices as f32;
+        self.yielded = (share / quantile).clamp(0.05, 0.7);
+        eprintln!("v {vertices} f {} removed {removed:?} q {quantile} th {:e} y {}", counts.faces, f32::from_bits(threshold), self.yielded);
+        self.slow = share < SLOW;
+        self.passes += 1;
+        Ok(removed)
+    }
+}
+
+/// Vertices strided over the surface, many or some, with their costs. Those that cannot collapse,
+/// or could not in the last pass, are [`UNUSABLE`]: they would pull the threshold down to what is
+/// never executed.
+fn sample(surface: &mut Surface, many: bool, workers: &Workers) -> Vec<(u32, u32)> {
+    let vertices = surface.positions.len();
+    let count = vertices.min(if many { 16384 } else { 4096 });
+    let tile = &surface.whole();
+    let blocks: Vec<_> = (0..count).step_by(1024).map(|first| first..(first + 1024).min(count)).collect();
+    let of_blocks = workers.map(blocks, |block| {
+        let mut scratch = Scratch::default();
+        block
+            .map(|index| {
+                let vertex = (index * vertices / count) as u32;
+                (vertex, cost(tile, vertex, flag::BLOCKED, &mut scratch).map_or(UNUSABLE, |(cost, _)| cost))
+            })
+            .collect::<Vec<_>>()
+    });
+    of_blocks.concat()
+}
+
+/// The bits of the cost that `quantile` of the samples do not exceed, and one more.
+fn threshold(samples: &[(u32, u32)], quantile: f32) -> u32 {
+    let mut costs: Vec<u32> = samples.iter().map(|&(_, cost)| cost).collect();
+    let index = ((costs.len() as f32 * quantile) as usize).min(costs.len() - 1);
+    let (_, &mut threshold, _) = costs.select_nth_unstable(index);
+    threshold.saturating_add(1)
+}
+
+/// The bits of the cheapest cost of a vertex that may be a source, and the neighbour it is at.
+#[inline(always)]
+fn cost(tile: &Tile, vertex: u32, unusable: u8, scratch: &mut Scratch) -> Option<(u32, u32)> {
+    if tile.flags(vertex) & (flag::USED | flag::DEAD | flag::LOCKED | unusable) != 0
+        || !tile.gather(vertex, &mut scratch.source)
+    {
+        return None;
+    }
+    scratch.source.cheapest_neighbour(|_| true).map(|(cost, neighbour)| (cost.to_bits(), neighbour))
+}
+
+/// Shares the excess among the tiles as the samples below the threshold are, so that no thread
+/// needs to know what the others do and the goal is never overshot.
+fn budgets(tiles: &[Tile], samples: &[(u32, u32)], threshold: u32, goal: Goal, excess: usize) -> Vec<usize> {
+    if let [_] = tiles {
+        return vec![excess];
+    }
+    let mut chosen = samples.iter().filter(|(_, cost)| *cost < threshold).map(|(vertex, _)| *vertex).peekable();
+    let weights: Vec<f64> = tiles
+        .iter()
+        .map(|tile| {
+            let mut weight = 0.5;
+            while chosen.next_if(|vertex| tile.vertices().contains(vertex)).is_some() {
+                weight += 1.0;
+            }
+            weight
+        })
+        .collect();
+    let sum: f64 = weights.iter().sum();
+    let share = |weight: &f64| (excess as f64 * weight / sum) as usize / goal.step() * goal.step();
+    weights.iter().map(share).collect()
+}
+
+/// Collapses what is below the threshold in a tile, in the order of its vertices.
+fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rules) -> Counts {
+    let mut scratch = Scratch::default();
+    let mut removed = Counts::default();
+    for vertex in tile.vertices() {
+        if goal.measure(removed) + goal.step() > budget {
+            break;
+        }
+        let Some((cost, neighbour)) = cost(tile, vertex, 0, &mut scratch) else { continue };
+        *tile.flags_mut(vertex) &= !flag::BLOCKED;
+        if cost >= threshold {
+            continue;
+        }
+        match tile.collapse(neighbour, rules, &mut scratch) {
+            Some(faces) => removed.add(Counts { faces, vertices: 1 }),
+            None => *tile.flags_mut(vertex) |= flag::BLOCKED,
+        }
+    }
+    removed
+}
+
+/// One pass that takes the cheapest collapses in their order, each vertex at most once: for the
+/// last few percent of a large surface, where a threshold would be too coarse.
+pub(crate) fn ranked_pass(
+    surface: &mut Surface,
+    counts: Counts,
+    goal: Goal,
+    rules: &Rules,
+    workers: &Workers,
+) -> Counts {
+    let wanted = goal.collapses(counts);
+    let mut candidates = Vec::new();
+    {
+        let tile = &surface.whole();
+        let blocks: Vec<_> = tile.vertices().step_by(TILE).collect();
+        let of_blocks = workers.map(blocks, |first| {
+            let mut scratch = Scratch::default();
+            let block = first..(first + TILE as u32).min(tile.vertices().end);
+            let cost = |vertex| cost(tile, vertex, 0, &mut scratch).map(|(cost, _)| (cost, vertex));
+            block.filter_map(cost).collect::<Vec<_>>()
+        });
+        of_blocks.into_iter().for_each(|block| candidates.extend(block));
+    }
+    // Most fail because a neighbour was used before.
+    let enough = 6 * wanted + 64;
+    if enough < candidates.len() {
+        candidates.select_nth_unstable(enough);
+        candidates.truncate(enough);
+    }
+    candidates.sort_unstable();
+    let mut tile = surface.whole();
+    let mut scratch = Scratch::default();
+    let mut removed = Counts::default();
+    for (_, vertex) in candidates {
+        if goal.measure(removed) >= goal.excess(counts) {
+            break;
+        }
+        if let Some((_, neighbour)) = cost(&tile, vertex, 0, &mut scratch)
+            && let Some(faces) = tile.collapse(neighbour, rules, &mut scratch)
+        {
+            removed.add(Counts { faces, vertices: 1 });
+        }
+    }
+    removed
+}

@@ -1,0 +1,211 @@
+//! A run: passes until the target is near, then the finish.
+
+use super::finish::Finish;
+use super::goal::{Counts, Goal};
+use super::order::rank;
+use super::pass::{TILE, Threshold, ranked_pass};
+use super::{Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, replacement};
+use crate::collapse::Rules;
+use crate::collapse::surface::{Snapshot, Surface};
+use crate::mesh::Mesh;
+use crate::monitor::{Cancelled, Monitor};
+use crate::workers::Workers;
+
+/// The finish begins when the surface is this many times larger than the goal...
+const FINISH_RATIO: f32 = 0.5;
+/// ...and has at most so many vertices: its heap takes ten times as long as a pass.
+const FINISH_VERTICES: usize = 50_000;
+/// Below this share of its vertices to remove, a surface that is too large for the finish ends
+/// with a ranked pass.
+const RANKED_SHARE: f32 = 0.05;
+/// A pass that removes a smaller share of the vertices makes no progress worth another.
+const STALLED: f32 = 0.002;
+
+/// A simplification under way.
+pub(crate) struct Run<'a> {
+    options: &'a Options,
+    input: &'a Mesh,
+    surface: Surface,
+    counts: Counts,
+    workers: Workers,
+    threshold: Threshold,
+    passes: usize,
+    topology_changed: bool,
+}
+
+impl<'a> Run<'a> {
+    pub(crate) fn new(mesh: &'a Mesh, options: &'a Options) -> Result<Self, SimplifyError> {
+        check(mesh, options)?;
+        let rank = rank(mesh, TILE / 8);
+        let workers = Workers::new(options.threads);
+        let mut surface = Surface::new(mesh, rank.as_deref(), &options.locked, options.track_origins);
+        drop(rank);
+        surface.build_rings(&workers);
+        let unreferenced = surface.classify(options.lock_boundary, &workers);
+        let counts = Counts { faces: surface.faces.len(), vertices: mesh.positions().len() - unreferenced };
+        Ok(Self {
+            options,
+            input: mesh,
+            surface,
+            counts,
+            workers,
+            threshold: Threshold::new(),
+            passes: 0,
+            topology_changed: false,
+        })
+    }
+
+    /// Goes on until `target` is met, or cannot be.
+    pub(crate) fn reach(&mut self, target: Target, monitor: &mut Monitor) -> Result<StoppedBy, SimplifyError> {
+        check_target(target)?;
+        let goal = Goal::new(target, self.input);
+        let error_limit = match target {
+            Target::MaxError(limit) => limit * self.surface.scale(),
+            _ => f32::INFINITY,
+        };
+        let rules = Rules { any_topology: false, error_limit };
+        let start = self.counts;
+        let mut report = |counts: Counts| monitor.report(progress(goal, start, counts));
+        report(self.counts)?;
+        let mut stalled = false;
+        while goal.excess(self.counts) > 0 && !stalled && !self.is_near(goal) {
+            let removed = self.pass(goal, &rules, &mut report)?;
+            stalled = (removed.vertices as f32) < STALLED * self.surface.positions.len() as f32;
+            self.surface.compact(&self.workers);
+            self.counts.remove(removed);
+            self.passes += 1;
+            report(self.counts)?;
+            self.surface.build_rings(&self.workers);
+        }
+        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= FINISH_VERTICES) {
+            self.finish(goal, rules, &mut report)?;
+            self.surface.build_rings(&self.workers);
+        }
+        monitor.report(1.0)?;
+        Ok(match goal {
+            Goal::Fewest => StoppedBy::Error,
+            _ if goal.excess(self.counts) == 0 => StoppedBy::Target,
+            _ => StoppedBy::Stuck,
+        })
+    }
+
+    /// Whether what is left is for the finish.
+    fn is_near(&self, goal: Goal) -> bool {
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
+        near && self.counts.vertices <= FINISH_VERTICES
+    }
+
+    fn pass(
+        &mut self,
+        goal: Goal,
+        rules: &Rules,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<Counts, Cancelled> {
+        let Self { surface, counts, workers, threshold, .. } = self;
+        let counts = *counts;
+        let mut report = |removed| {
+            let mut now = counts;
+            now.remove(removed);
+            report(now)
+        };
+        match self.options.selection {
+            Selection::ReplacementSelection { records } => {
+                replacement::pass(surface, records, counts, goal, rules, &mut report)
+            }
+            Selection::SampledThreshold => {
+                let share = goal.collapses(counts) as f32 / surface.positions.len() as f32;
+                if share < RANKED_SHARE {
+                    Ok(ranked_pass(surface, counts, goal, rules, workers))
+                } else {
+                    threshold.pass(surface, counts, goal, rules, workers, &mut report)
+                }
+            }
+        }
+    }
+
+    /// The heap; and, where it is stuck and the topology may change, the heap once more from where
+    /// it began, without the link condition. From where it began, because what the condition does
+    /// last is to ruin large parts for the sake of tiny ones.
+    fn finish(
+        &mut self,
+        goal: Goal,
+        rules: Rules,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
+        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
+        let before: Option<(Snapshot, Counts)> = may_relax.then(|| (self.surface.snapshot(), self.counts));
+        self.finish_once(goal, &rules, report)?;
+        if let Some((snapshot, counts)) = before
+            && goal.excess(self.counts) > 0
+        {
+            self.surface.restore(snapshot);
+            self.counts = counts;
+            self.topology_changed = true;
+            self.finish_once(goal, &Rules { any_topology: true, ..rules }, report)?;
+        }
+        Ok(())
+    }
+
+    fn finish_once(
+        &mut self,
+        goal: Goal,
+        rules: &Rules,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
+        let counts = self.counts;
+        let mut report = |removed| {
+            let mut now = counts;
+            now.remove(removed);
+            report(now)
+        };
+        let removed = Finish::new(&mut self.surface, rules).run(counts, goal, &mut report)?;
+        self.surface.compact(&self.workers);
+        self.counts.remove(removed);
+        self.passes += 1;
+        Ok(())
+    }
+
+    /// Frees memory that only a further [`reach`](Self::reach) would need.
+    pub(crate) fn drop_rings(&mut self) {
+        self.surface.drop_rings();
+    }
+
+    /// The surface as it is now.
+    pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
+        let (mesh, origins) = self.surface.to_mesh()?;
+        let error = self.surface.errors.iter().copied().fold(0.0, f32::max) / self.surface.scale();
+        let topology_changed = self.topology_changed;
+        Ok(Simplified { mesh, stopped_by, error, topology_changed, origins, passes: self.passes })
+    }
+}
+
+/// How far `now` is from `start` to the goal.
+fn progress(goal: Goal, start: Counts, now: Counts) -> f32 {
+    let excess = goal.excess(start).max(1) as f32;
+    1.0 - goal.excess(now) as f32 / excess
+}
+
+fn check(mesh: &Mesh, options: &Options) -> Result<(), SimplifyError> {
+    let vertices = mesh.positions().len();
+    if let Some(vertex) = options.locked.iter().find(|&&vertex| vertex as usize >= vertices) {
+        let message = format!("locked vertex {vertex} does not exist: there are {vertices} vertices");
+        return Err(SimplifyError::InvalidOption(message));
+    }
+    if options.selection == (Selection::ReplacementSelection { records: 0 }) {
+        return Err(SimplifyError::InvalidOption("a replacement-selection heap needs a record".into()));
+    }
+    Ok(())
+}
+
+fn check_target(target: Target) -> Result<(), SimplifyError> {
+    let invalid = |message: String| Err(SimplifyError::InvalidOption(message));
+    match target {
+        Target::Ratio(ratio) if !(0.0..=1.0).contains(&ratio) => {
+            invalid(format!("ratio {ratio} is not between 0 and 1"))
+        }
+        Target::MaxError(error) if !(error >= 0.0 && error.is_finite()) => {
+            invalid(format!("maximum error {error} is not a distance"))
+        }
+        _ => Ok(()),
+    }
+}

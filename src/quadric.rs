@@ -1,0 +1,164 @@
+//! Quadrics of planes through a vertex, and the placement that minimises a pair of them.
+//!
+//! Follows section 2.3 of the HQMS paper (Garland and Heckbert's quadric error metric, equations 1
+//! to 5), written relative to a vertex: every plane of a vertex's ring passes through that vertex,
+//! so with the vertex as origin the linear and constant parts of equation 2 vanish and the quadric
+//! is the 3x3 matrix A alone. That is what lets single precision suffice wherever the mesh lies.
+//!
+//! Departures: planes are weighted by the area of their face (15 to 30 % less error than the unit
+//! weights of equation 2), and the linear system of the optimal placement is regularised towards
+//! the middle of the edge, so that it has one solution on flat and cylindrical regions too.
+
+use glam::Vec3;
+
+/// How much the placement is drawn to the middle of the edge, as a share of the quadric's trace.
+///
+/// Large enough to keep flat regions well conditioned, small enough to cost nothing: the error is
+/// the same within 2 % from 1e-4 to 1e-6 and rises by 10 % at 1e-3.
+const REGULARISATION: f32 = 1e-5;
+
+/// A cost below this share of `trace * length²` is rounding: the planes are the same plane.
+const ROUNDING: f32 = 1e-7;
+
+/// A sum of squared distances, area-weighted, to planes through the origin: the symmetric matrix
+/// `A` of `x -> xᵀ A x`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Quadric {
+    xx: f32,
+    xy: f32,
+    xz: f32,
+    yy: f32,
+    yz: f32,
+    zz: f32,
+}
+
+impl Quadric {
+    /// Adds the plane with this (any length) `normal`, each unit of squared length weighing `weight`.
+    #[inline(always)]
+    pub(crate) fn add_plane(&mut self, normal: Vec3, weight: f32) {
+        let scaled = normal * weight;
+        self.xx += scaled.x * normal.x;
+        self.xy += scaled.x * normal.y;
+        self.xz += scaled.x * normal.z;
+        self.yy += scaled.y * normal.y;
+        self.yz += scaled.y * normal.z;
+        self.zz += scaled.z * normal.z;
+    }
+
+    /// Adds the plane of a face, weighted by its area; `cross` is the cross product of two of its
+    /// edges. A face without area adds nothing.
+    #[inline(always)]
+    pub(crate) fn add_face(&mut self, cross: Vec3) {
+        self.add_plane(cross, 0.5 / (cross.length_squared() + f32::MIN_POSITIVE).sqrt());
+    }
+
+    /// Adds the plane through `edge`, perpendicular to a face that ends there, weighted by the
+    /// edge's squared length, so that it counts like the faces on the other side would.
+    pub(crate) fn add_border(&mut self, edge: Vec3, cross: Vec3) {
+        let normal = edge.cross(cross);
+        let length_squared = normal.length_squared();
+        if length_squared > f32::MIN_POSITIVE {
+            self.add_plane(normal, edge.length_squared() / length_squared);
+        }
+    }
+
+    /// The weighted sum of squared distances at `x`.
+    #[inline(always)]
+    pub(crate) fn at(&self, x: Vec3) -> f32 {
+        let cost = x.x * (self.xx * x.x + 2.0 * (self.xy * x.y + self.xz * x.z))
+            + x.y * (self.yy * x.y + 2.0 * self.yz * x.z)
+            + x.z * self.zz * x.z;
+        cost.max(0.0)
+    }
+
+    fn trace(&self) -> f32 {
+        self.xx + self.yy + self.zz
+    }
+
+    fn apply(&self, x: Vec3) -> Vec3 {
+        Vec3::new(
+            self.xx * x.x + self.xy * x.y + self.xz * x.z,
+            self.xy * x.x + self.yy * x.y + self.yz * x.z,
+            self.xz * x.x + self.yz * x.y + self.zz * x.z,
+        )
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self {
+            xx: self.xx + other.xx,
+            xy: self.xy + other.xy,
+            xz: self.xz + other.xz,
+            yy: self.yy + other.yy,
+            yz: self.yz + other.yz,
+            zz: self.zz + other.zz,
+        }
+    }
+
+    /// Solves `(A + shift I) x = right` by LDLᵀ without pivoting, which is stable as the matrix is
+    /// positive definite. Not finite where it is not.
+    #[inline(always)]
+    fn solve(&self, shift: f32, right: Vec3) -> Vec3 {
+        let inverse_0 = 1.0 / (self.xx + shift);
+        let l10 = self.xy * inverse_0;
+        let l20 = self.xz * inverse_0;
+        let inverse_1 = 1.0 / (self.yy + shift - l10 * self.xy);
+        let u21 = self.yz - l10 * self.xz;
+        let l21 = u21 * inverse_1;
+        let pivot_2 = self.zz + shift - l20 * self.xz - l21 * u21;
+        let y1 = right.y - l10 * right.x;
+        let y2 = right.z - l20 * right.x - l21 * y1;
+        let z = y2 / pivot_2;
+        let y = y1 * inverse_1 - l21 * z;
+        let x = right.x * inverse_0 - l10 * y - l20 * z;
+        Vec3::new(x, y, z)
+    }
+}
+
+/// Where a collapsed edge's vertex goes, and at what cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Placement {
+    /// The new place, relative to the source.
+    pub(crate) offset: Vec3,
+    /// The weighted sum of squared distances there, plus the regularisation: among placements
+    /// that are equally good, the shorter edge is the cheaper.
+    pub(crate) cost: f32,
+}
+
+/// The place that minimises the sum of two quadrics: `source` around the origin, `target` around
+/// `edge` (equation 5 and the linear system under it).
+///
+/// An end of the edge that lies on all planes of the other is taken as it is, so that corners of
+/// flat-faced solids do not creep. Where the optimum lies more than three edge lengths away (the
+/// planes are nearly parallel), the best of both ends and the middle is taken.
+#[inline(always)]
+pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3) -> Placement {
+    let sum = source.plus(target);
+    let length_squared = edge.length_squared();
+    let trace = sum.trace();
+    let rounding = ROUNDING * trace * length_squared;
+    let shift = REGULARISATION * trace + f32::MIN_POSITIVE;
+    let drawn = |offset: Vec3| shift * (offset - 0.5 * edge).length_squared();
+    let pull = target.apply(edge);
+    let constant = pull.dot(edge);
+    let at_target = source.at(edge);
+    if at_target <= rounding {
+        return Placement { offset: edge, cost: at_target + drawn(edge) };
+    }
+    if constant <= rounding {
+        return Placement { offset: Vec3::ZERO, cost: constant.max(0.0) + drawn(edge) };
+    }
+    let offset = sum.solve(shift, pull + 0.5 * shift * edge);
+    if offset.length_squared() < 9.0 * length_squared {
+        let cost = constant - 2.0 * offset.dot(pull) + offset.dot(sum.apply(offset));
+        return Placement { offset, cost: cost.max(0.0) + drawn(offset) };
+    }
+    let middle = 0.5 * edge;
+    let at_middle = source.at(middle) + target.at(middle);
+    let mut best = Placement { offset: middle, cost: at_middle };
+    for (offset, cost) in [(edge, at_target), (Vec3::ZERO, constant)] {
+        if cost < best.cost {
+            best = Placement { offset, cost };
+        }
+    }
+    Placement { cost: best.cost + drawn(best.offset), ..best }
+}
