@@ -32,11 +32,13 @@ pub(crate) struct Threshold {
     /// Collapses of the last pass as a share of those below its threshold.
     yielded: f32,
     slow: bool,
+    productive: bool,
+    threshold: u32,
 }
 
 impl Threshold {
     pub(crate) fn new() -> Self {
-        Self { passes: 0, yielded: 0.5, slow: false }
+        Self { passes: 0, yielded: 0.5, slow: false, productive: false, threshold: 0 }
     }
 
     /// One pass over a surface with rings. Removes at most the goal's excess.
@@ -52,13 +54,16 @@ impl Threshold {
         let vertices = surface.positions.len();
         // Far from the goal a coarser order does: what is taken too early here would be taken
         // later anyway.
-        let far = goal.ratio(counts).is_some_and(|ratio| ratio > 4.0);
-        let share = if far { 0.8 } else { 0.5 };
+        let far = goal.ratio(counts).is_some_and(|ratio| ratio > crate::workers::tune("FAR",4.0));
+        let share = if far { crate::workers::tune("Q2",0.8) } else { crate::workers::tune("Q1",0.5) };
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
         let samples = sample(surface, wanted < 0.1, workers);
         let usable = samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
         let quantile = f32::min(share * usable, 0.8 * wanted / self.yielded.max(0.5));
-        let threshold = threshold(&samples, quantile);
+        let mut threshold = threshold(&samples, quantile);
+        let limit = crate::workers::tune("GROW", 16.0);
+        if self.productive { threshold = threshold.min((f32::from_bits(self.threshold)*limit).to_bits()); }
+        self.threshold = threshold;
         let single = vertices < 2 * TILE || self.slow;
         let shift = if self.passes % 2 == 1 { TILE / 2 } else { 0 };
         let cuts = (1..).map(|tile| tile * TILE - shift).take_while(|&cut| !single && cut < vertices);
@@ -75,8 +80,9 @@ impl Threshold {
         }
         let share = removed.vertices as f32 / vertices as f32;
         self.yielded = (share / quantile).clamp(0.05, 0.7);
-        eprintln!("v {vertices} f {} removed {removed:?} q {quantile} th {:e} y {}", counts.faces, f32::from_bits(threshold), self.yielded);
         self.slow = share < SLOW;
+        self.productive = share > crate::workers::tune("PROD", 0.1);
+        if std::env::var("V").is_ok() { eprintln!("v {vertices} f {} removed {removed:?} share {share} q {quantile} usable {usable} th {:e} y {}", counts.faces, f32::from_bits(threshold), self.yielded); }
         self.passes += 1;
         Ok(removed)
     }

@@ -12,7 +12,7 @@ use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
 
 /// The finish begins when the surface is this many times larger than the goal...
-const FINISH_RATIO: f32 = 0.5;
+const FINISH_RATIO: f32 = 1.5;
 /// ...and has at most so many vertices: its heap takes ten times as long as a pass.
 const FINISH_VERTICES: usize = 50_000;
 /// Below this share of its vertices to remove, a surface that is too large for the finish ends
@@ -91,8 +91,8 @@ impl<'a> Run<'a> {
 
     /// Whether what is left is for the finish.
     fn is_near(&self, goal: Goal) -> bool {
-        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
-        near && self.counts.vertices <= FINISH_VERTICES
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= crate::workers::tune("FR",FINISH_RATIO));
+        near && self.counts.vertices <= crate::workers::tune("FV",FINISH_VERTICES as f32) as usize
     }
 
     fn pass(
