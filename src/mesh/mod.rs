@@ -8,6 +8,7 @@
 mod extent;
 mod partition;
 mod rings;
+pub mod shapes;
 mod statistics;
 pub mod topology;
 mod verify;
