@@ -192,6 +192,7 @@ proptest! {
         prop_assert_eq!(&mesh.weld(Weld::Tolerance(-0.0)).unwrap(), &welded);
         prop_assert_eq!(welded.mesh.statistics().duplicate_positions, 0);
         prop_assert_eq!(&welded.mesh.weld(Weld::Exact).unwrap().mesh, &welded.mesh);
+        check_tolerance(mesh.positions(), 0.5)?;
     }
 
     #[test]
