@@ -5,6 +5,21 @@
 //! uses, non-manifold edges and vertices, faces that disagree in orientation and any number of
 //! components are all the normal case of real data.
 
+mod extent;
+mod partition;
+mod rings;
+pub mod shapes;
+mod statistics;
+pub mod topology;
+mod verify;
+mod weld;
+
+pub use rings::{Corner, Rings};
+pub use statistics::{Flaws, Statistics};
+pub use topology::{Components, Topology};
+pub use verify::{Violation, verify};
+pub use weld::{Weld, WeldError, Welded};
+
 /// Per-vertex attributes that a simplification carries along.
 ///
 /// Each is either absent or has one entry a vertex.
