@@ -108,8 +108,8 @@ impl<'a> Tile<'a> {
         self.flags[(vertex - self.first) as usize]
     }
 
-    pub(crate) fn flags_mut(&mut self, vertex: u32) -> &mut u8 {
-        &mut self.flags[(vertex - self.first) as usize]
+    pub(crate) fn unblock(&mut self, vertex: u32) {
+        self.flags[(vertex - self.first) as usize] &= !flag::BLOCKED;
     }
 
     #[inline(always)]
@@ -152,15 +152,14 @@ impl<'a> Tile<'a> {
         true
     }
 
-    /// Collapses `scratch.source`, which has been gathered, into `target`, if the rules allow it:
-    /// the number of faces that this removed.
+    /// Collapses `scratch.source`, which has been gathered and is unused, into `target`, if the
+    /// rules allow it: the number of faces that this removed. Where they do not, the source is
+    /// blocked.
     #[inline(always)]
     pub(crate) fn collapse(&mut self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<usize> {
         let source = scratch.source.vertex;
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
-        if (self.flags[from] | self.flags[into]) & (flag::USED | flag::DEAD) != 0
-            || !self.gather(target, &mut scratch.target)
-        {
+        if self.flags[into] & flag::USED != 0 || !self.gather(target, &mut scratch.target) {
             return None;
         }
         let edge = Edge {
@@ -171,8 +170,11 @@ impl<'a> Tile<'a> {
             target_locked: self.flags[into] & flag::LOCKED != 0,
             error: self.errors[from].max(self.errors[into]),
         };
-        let collapse = edge.collapse(rules, &mut scratch.neighbours)?;
-        Some(self.execute(source, target, &collapse))
+        let collapse = edge.collapse(rules, &mut scratch.neighbours);
+        if collapse.is_none() {
+            self.flags[from] |= flag::BLOCKED;
+        }
+        collapse.map(|collapse| self.execute(source, target, &collapse))
     }
 
     fn execute(&mut self, source: u32, target: u32, collapse: &Collapse) -> usize {

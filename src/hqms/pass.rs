@@ -158,13 +158,11 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
             break;
         }
         let Some((cost, neighbour)) = cost(tile, vertex, 0, &mut scratch) else { continue };
-        *tile.flags_mut(vertex) &= !flag::BLOCKED;
-        if cost >= threshold {
-            continue;
-        }
-        match tile.collapse(neighbour, rules, &mut scratch) {
-            Some(faces) => removed.add(Counts { faces, vertices: 1 }),
-            None => *tile.flags_mut(vertex) |= flag::BLOCKED,
+        tile.unblock(vertex);
+        if cost < threshold
+            && let Some(faces) = tile.collapse(neighbour, rules, &mut scratch)
+        {
+            removed.add(Counts { faces, vertices: 1 });
         }
     }
     removed
