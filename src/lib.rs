@@ -3,6 +3,7 @@
 mod collapse;
 pub mod deviation;
 pub mod hqms;
+#[cfg(feature = "io")]
 pub mod io;
 pub mod mesh;
 mod monitor;
