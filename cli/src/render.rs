@@ -31,42 +31,55 @@ pub(crate) struct Picture {
 }
 
 /// Samples a pixel.
-const SAMPLES: usize = 20;
+const SAMPLES: usize = 16;
 /// Rows between two reports of progress.
 const BAND: usize = 16;
 
 /// How the meshes are turned about the vertical, and how steeply the camera looks down.
-const YAW: f32 = 0.45;
+const YAW: f32 = 0.38;
 const PITCH: f32 = 0.20;
 
-const SKIN: Vec3A = vec3a(0.72, 0.40, 0.26);
-const KEY_COLOR: Vec3A = vec3a(1.32, 1.22, 1.06);
-const FILL_COLOR: Vec3A = vec3a(0.16, 0.20, 0.28);
-const SKY_COLOR: Vec3A = vec3a(0.46, 0.52, 0.62);
-const GROUND_COLOR: Vec3A = vec3a(0.34, 0.30, 0.27);
+const SKIN: Vec3A = vec3a(0.70, 0.33, 0.19);
+const KEY_COLOR: Vec3A = vec3a(1.62, 1.48, 1.26);
+const FILL: Vec3A = vec3a(0.80, 0.10, 0.59);
+const FILL_COLOR: Vec3A = vec3a(0.32, 0.40, 0.56);
+const SKY_COLOR: Vec3A = vec3a(0.34, 0.39, 0.47);
+const GROUND_COLOR: Vec3A = vec3a(0.25, 0.22, 0.20);
 const INK: [f32; 3] = [52.0, 56.0, 66.0];
 /// Share of the light that a shadow on the floor takes away.
 const FLOOR_SHADOW: f32 = 0.42;
+/// Share of it that blocked sky takes away.
+const FLOOR_OCCLUSION: f32 = 0.55;
+/// Pixels around a pixel that tell of its floor's light.
+const FLOOR_RADIUS: usize = 4;
 /// Radius of the key light's disc at distance 1: the softness of shadows.
 const KEY_RADIUS: f32 = 0.10;
 /// Sky light that is blocked farther away than this share of the height still counts as open.
 const SKY_REACH: f32 = 0.6;
 /// Edges are drawn fully where triangles' mean edge is longer than the second, and not at all below
 /// the first. In pixels.
-const EDGE_LENGTHS: [f32; 2] = [3.0, 9.0];
+const EDGE_LENGTHS: [f32; 2] = [2.0, 14.0];
 const EDGE_WIDTH: f32 = 1.1;
+/// Share of the light that an edge takes away.
+const EDGE_INK: f32 = 0.62;
 
 /// Draws `exhibits` in a row. The first one sets the scale of all.
 pub(crate) fn draw(exhibits: &[Exhibit], width: usize, monitor: &mut Monitor) -> Result<Picture, Cancelled> {
     let scene = Scene::new(exhibits, width);
     let height = scene.height_in_pixels();
-    let mut pixels = Vec::with_capacity(width * height);
+    let mut seen = Vec::with_capacity(width * height);
     for band in (0..height).step_by(BAND) {
         let rows = band..height.min(band + BAND);
-        let drawn = rows.into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
-        pixels.par_extend(drawn.map(|(x, y)| scene.pixel(x, y)));
+        let places = rows.into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
+        seen.par_extend(places.map(|(x, y)| scene.look(x, y)));
         monitor.report(band as f32 / height as f32)?;
     }
+    let pixels = (0..width * height).into_par_iter().map(|k| {
+        let floor = floor_light(&seen, width, k);
+        let color = seen[k].surface + scene.background(k % width, k / width) * floor * seen[k].floor_share();
+        color.to_array().map(encode)
+    });
+    let pixels = pixels.collect();
     let mut picture = Picture { width, height, pixels };
     for (column, exhibit) in exhibits.iter().enumerate() {
         let middle = (column as f32 + 0.5) * width as f32 / exhibits.len() as f32;
@@ -129,6 +142,22 @@ struct Scene {
     key: Vec3A,
 }
 
+/// What the samples of a pixel saw.
+#[derive(Clone, Copy, Default)]
+struct Seen {
+    /// Light from meshes, their share of the pixel taken into account.
+    surface: Vec3A,
+    /// Sum over the samples that saw the floor.
+    floor_light: f32,
+    floor_samples: f32,
+}
+
+impl Seen {
+    fn floor_share(&self) -> f32 {
+        self.floor_samples / SAMPLES as f32
+    }
+}
+
 /// An orthographic camera: all meshes are seen from the same side.
 struct Camera {
     right: Vec3A,
@@ -153,7 +182,7 @@ impl Scene {
         let mut groups: Vec<Vec<Triangle>> = exhibits.iter().map(|exhibit| corners(exhibit.mesh)).collect();
         let (low, high) = bounds(groups.first().map_or(&[], Vec::as_slice));
         let scale = 1.0 / (high.y - low.y).max(f32::MIN_POSITIVE);
-        let pitch = ((high.x - low.x) * scale * 1.16).max(0.35);
+        let pitch = ((high.x - low.x) * scale * 1.13).max(0.35);
         let foot = vec3a((low.x + high.x) / 2.0, low.y, (low.z + high.z) / 2.0);
         let half_depth = (high.z - low.z) / 2.0 * scale;
         for (column, group) in groups.iter_mut().enumerate() {
@@ -179,49 +208,44 @@ impl Scene {
     }
 
     fn caption_size(&self) -> f32 {
-        0.052 / self.camera.pixel
+        0.058 / self.camera.pixel
     }
 
-    fn pixel(&self, x: usize, y: usize) -> [u8; 3] {
-        let background = self.background(vec2(x as f32, y as f32));
+    /// What is seen through a pixel.
+    fn look(&self, x: usize, y: usize) -> Seen {
         let samples = Samples::of_pixel(x, y);
-        let corner = vec2(x as f32, y as f32);
-        let sum: Vec3A = (0..SAMPLES)
-            .map(|k| {
-                self.sample(
-                    corner + samples.at(Samples::PLACE, k),
-                    background,
-                    [samples.at(Samples::KEY, k), samples.at(Samples::SKY, k)],
-                )
-            })
-            .sum();
-        let [r, g, b] = (sum / SAMPLES as f32).to_array();
-        [encode(r), encode(g), encode(b)]
+        let mut seen = Seen::default();
+        for k in 0..SAMPLES {
+            let place = vec2(x as f32, y as f32) + samples.at(Samples::PLACE, k);
+            let random = [samples.at(Samples::KEY, k), samples.at(Samples::SKY, k)];
+            let ray = self.camera.ray(place);
+            let mut hit = RayHit::none();
+            let intersect = |ray: &Ray, k: usize| self.triangles[self.index(k)].intersect(ray);
+            if self.tree.ray_traverse(ray, &mut hit, intersect) {
+                let index = self.index(hit.primitive_id as usize);
+                seen.surface += self.shade(index, &ray, hit.t, place, random) / SAMPLES as f32;
+            } else {
+                let floor = ray.origin - ray.direction * (ray.origin.y / ray.direction.y);
+                let [key, sky] = self.light(floor, Vec3A::Y, random);
+                seen.floor_light += 1.0 - FLOOR_SHADOW * (1.0 - key) - FLOOR_OCCLUSION * (1.0 - sky);
+                seen.floor_samples += 1.0;
+            }
+        }
+        seen
     }
 
-    /// The colour seen at a place of the picture.
-    fn sample(&self, place: Vec2, background: Vec3A, random: [Vec2; 2]) -> Vec3A {
-        let ray = self.camera.ray(place);
-        let mut hit = RayHit::none();
-        let found =
-            self.tree.ray_traverse(ray, &mut hit, |ray, k| self.triangles[self.index(k)].intersect(ray));
-        if !found {
-            let floor = ray.origin - ray.direction * (ray.origin.y / ray.direction.y);
-            let [key, sky] = self.light(floor, Vec3A::Y, random);
-            return background * (1.0 - FLOOR_SHADOW * (1.0 - key) - 0.75 * (1.0 - sky));
-        }
-        let index = self.index(hit.primitive_id as usize);
+    /// The light that comes from a place on a triangle to the camera.
+    fn shade(&self, index: usize, ray: &Ray, distance: f32, place: Vec2, random: [Vec2; 2]) -> Vec3A {
         let triangle = &self.triangles[index];
         let normal = triangle.compute_normal();
         let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
-        let [key, sky] = self.light(ray.origin + ray.direction * hit.t, normal, random);
-        let fill = normal.dot(vec3a(0.80, 0.10, 0.59)).max(0.0);
-        let open = GROUND_COLOR.lerp(SKY_COLOR, 0.5 + 0.5 * normal.y);
-        let light =
-            KEY_COLOR * (key * normal.dot(self.key).max(0.0)) + (open + FILL_COLOR * fill * 2.0) * sky;
+        let [key, sky] = self.light(ray.origin + ray.direction * distance, normal, random);
+        let ambient = GROUND_COLOR.lerp(SKY_COLOR, 0.5 + 0.5 * normal.y);
+        let fill = FILL_COLOR * normal.dot(FILL).max(0.0);
+        let light = KEY_COLOR * (key * normal.dot(self.key).max(0.0)) + (ambient + fill) * sky;
         let mesh = self.meshes.partition_point(|&(end, _)| end <= index);
-        let ink = self.meshes[mesh].1 * self.edge(triangle, place);
-        SKIN * light * (1.0 - 0.62 * ink)
+        let ink = if self.on_edge(triangle, place) { EDGE_INK * self.meshes[mesh].1 } else { 0.0 };
+        SKIN * light * (1.0 - ink)
     }
 
     /// How much of the key light and of the sky reaches `place`, each 0 to 1.
@@ -245,15 +269,14 @@ impl Scene {
     }
 
     /// Whether `place` lies on an edge of `triangle` as drawn.
-    fn edge(&self, triangle: &Triangle, place: Vec2) -> f32 {
+    fn on_edge(&self, triangle: &Triangle, place: Vec2) -> bool {
         let corners = [triangle.v0, triangle.v1, triangle.v2].map(|corner| self.camera.project(corner));
-        let near = (0..3).any(|k| {
+        (0..3).any(|k| {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             let along = b - a;
             let t = ((place - a).dot(along) / along.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
             (a + along * t).distance(place) < EDGE_WIDTH / 2.0
-        });
-        f32::from(u8::from(near))
+        })
     }
 
     fn index(&self, position: usize) -> usize {
@@ -261,8 +284,9 @@ impl Scene {
     }
 
     /// A wall that is lighter behind the meshes and a little darker towards the corners.
-    fn background(&self, place: Vec2) -> Vec3A {
+    fn background(&self, x: usize, y: usize) -> Vec3A {
         let size = self.camera.size / self.camera.pixel;
+        let place = vec2(x as f32, y as f32);
         let from_middle = (place / size - vec2(0.5, 0.42)) * vec2(1.0, 0.9);
         let shade = (from_middle.length_squared() * 1.3).min(1.0);
         vec3a(0.90, 0.905, 0.91).lerp(vec3a(0.60, 0.63, 0.68), shade)
@@ -314,6 +338,17 @@ fn edge_strength(triangles: &[Triangle], pixel: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// The floor's light at pixel `k`. It changes slowly, so what neighbours saw takes the noise out of it.
+fn floor_light(seen: &[Seen], width: usize, k: usize) -> f32 {
+    let (x, y) = (k % width, k / width);
+    let columns = x.saturating_sub(FLOOR_RADIUS)..(x + FLOOR_RADIUS + 1).min(width);
+    let rows = y.saturating_sub(FLOOR_RADIUS)..(y + FLOOR_RADIUS + 1).min(seen.len() / width);
+    let near = rows.flat_map(|row| &seen[row * width..][columns.clone()]);
+    let (light, samples) = near
+        .fold((0.0, 0.0), |(light, samples), seen| (light + seen.floor_light, samples + seen.floor_samples));
+    light / f32::max(samples, 1.0)
+}
+
 fn in_disc(square: Vec2) -> Vec2 {
     let (sin, cos) = (square.x * TAU).sin_cos();
     vec2(cos, sin) * square.y.sqrt()
@@ -327,7 +362,7 @@ fn encode(linear: f32) -> u8 {
 }
 
 /// Sample points of the unit square for each use within a pixel: evenly spread (Roberts' R2 sequence),
-/// shifted differently in each pixel, so that what error is left looks like fine grain.
+/// shifted differently in each pixel.
 struct Samples {
     shifts: [Vec2; 3],
 }
