@@ -32,10 +32,11 @@ impl Partition {
         }
     }
 
-    /// Makes the sets of `a` and `b` one.
-    pub(super) fn unite(&mut self, a: u32, b: u32) {
+    /// Makes the sets of `a` and `b` one; whether they were two.
+    pub(super) fn unite(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));
         self.parents[a.max(b) as usize] = a.min(b);
+        a != b
     }
 
     /// How many sets there are.

@@ -87,10 +87,8 @@ pub struct Topology {
     pub faces: usize,
     /// Edges with one face.
     pub border_edges: usize,
-    /// Closed chains of border edges.
-    ///
-    /// Where several of them meet at a vertex, each is followed within one fan of faces, so that two
-    /// holes which touch in a point are two loops.
+    /// Closed chains of border edges. Border edges that share a vertex are of one chain, as faces that
+    /// do are of one component: two holes that touch in a point are one loop.
     pub boundary_loops: usize,
     /// Edges with more than two faces.
     pub non_manifold_edges: usize,
@@ -132,9 +130,8 @@ impl Mesh {
 impl Topology {
     /// As [`Mesh::topology`], with the rings of `mesh` at hand.
     pub fn new(mesh: &Mesh, rings: &Rings) -> Self {
-        let (mut survey, components) =
-            rayon::join(|| Survey::new(mesh, rings), || Components::new(mesh).count);
-        Self { boundary_loops: survey.loops(), components, ..survey.counts }
+        let (survey, components) = rayon::join(|| Survey::new(mesh, rings), || Components::new(mesh).count);
+        Self { boundary_loops: survey.loops(rings.vertices()), components, ..survey.counts }
     }
 }
 
@@ -233,22 +230,16 @@ impl Star {
     fn spokes(&self) -> impl Iterator<Item = &[Spoke]> {
         self.spokes.chunk_by(|a, b| a.end() == b.end())
     }
-
-    /// The corner at which the face's side begins: a name for it that both its ends agree on.
-    fn start(&self, spoke: Spoke) -> Corner {
-        let corner = self.corners[spoke.slot() as usize];
-        if spoke.is_outgoing() { corner } else { corner.previous() }
-    }
 }
 
 /// What can be told of a range of vertices without regard to the others.
 #[derive(Debug, Default)]
 struct Survey {
     counts: Topology,
-    /// The border edges, each by its start.
-    border: Vec<Corner>,
-    /// Pairs of border edges that follow each other round a fan.
-    links: Vec<[Corner; 2]>,
+    /// The ends of the border edges.
+    border: Vec<[u32; 2]>,
+    /// How many vertices they have.
+    border_vertices: usize,
 }
 
 impl Survey {
@@ -266,10 +257,9 @@ impl Survey {
     }
 
     fn of_vertices(mesh: &Mesh, rings: &Rings, vertices: Range<usize>) -> Self {
-        let Self { mut counts, mut border, mut links } = Self::default();
+        let Self { mut counts, mut border, mut border_vertices } = Self::default();
         let mut star = Star::default();
         let mut fans = Partition::default();
-        let mut ends = Vec::new();
         for vertex in vertices {
             star.gather(mesh, rings, vertex);
             if star.corners.is_empty() {
@@ -279,18 +269,17 @@ impl Survey {
             // Each face and each edge is counted at one of its vertices.
             counts.faces += star.corners.iter().filter(|corner| corner.place() == 0).count();
             fans.reset(star.corners.len());
-            ends.clear();
+            let mut is_border = false;
             for spokes in star.spokes() {
                 for pair in spokes.windows(2) {
                     fans.unite(pair[0].slot(), pair[1].slot());
                 }
-                if let &[end] = spokes {
-                    ends.push(end);
-                }
-                if spokes[0].end() as usize > vertex {
+                is_border |= spokes.len() == 1;
+                let end = spokes[0].end();
+                if end as usize > vertex {
                     counts.edges += 1;
                     match *spokes {
-                        [side] => border.push(star.start(side)),
+                        [_] => border.push([vertex as u32, end]),
                         [a, b] => {
                             counts.inconsistent_edges += usize::from(a.is_outgoing() == b.is_outgoing());
                         }
@@ -299,13 +288,10 @@ impl Survey {
                 }
             }
             counts.non_manifold_vertices += usize::from(fans.sets() > 1);
-            ends.sort_by_key(|end| fans.find(end.slot()));
-            for fan in ends.chunk_by(|a, b| fans.find(a.slot()) == fans.find(b.slot())) {
-                links.extend(fan.windows(2).map(|pair| [star.start(pair[0]), star.start(pair[1])]));
-            }
+            border_vertices += usize::from(is_border);
         }
         counts.border_edges = border.len();
-        Self { counts, border, links }
+        Self { counts, border, border_vertices }
     }
 
     fn and(mut self, mut other: Self) -> Self {
@@ -318,17 +304,14 @@ impl Survey {
         sum.inconsistent_edges += more.inconsistent_edges;
         sum.non_manifold_vertices += more.non_manifold_vertices;
         self.border.append(&mut other.border);
-        self.links.append(&mut other.links);
+        self.border_vertices += other.border_vertices;
         self
     }
 
-    fn loops(&mut self) -> usize {
-        self.border.sort_unstable();
-        let mut chains = Partition::new(self.border.len());
-        for pair in &self.links {
-            let [a, b] = pair.map(|corner| self.border.partition_point(|&start| start < corner) as u32);
-            chains.unite(a, b);
-        }
-        chains.sets()
+    /// Each border vertex is a chain of its own until an edge joins it to another.
+    fn loops(&self, vertices: usize) -> usize {
+        let mut chains = Partition::new(vertices);
+        let joins = self.border.iter().filter(|&&[from, to]| chains.unite(from, to)).count();
+        self.border_vertices - joins
     }
 }

@@ -223,3 +223,109 @@ fn verify_topology(had: Topology, has: Topology) -> Result<(), Violation> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::shapes;
+    use super::*;
+
+    /// A mesh of six vertices, no three of them in line.
+    fn six(triangles: &[[u32; 3]]) -> Mesh {
+        let positions = (0..6).map(|i| [i as f32, (i * i) as f32, (i * i * i) as f32]).collect();
+        Mesh::new(positions, triangles.to_vec()).unwrap()
+    }
+
+    /// `input` with more `triangles` on new vertices.
+    fn joined(a: &Mesh, b: &Mesh) -> Mesh {
+        let offset = a.positions().len() as u32;
+        let moved = b.triangles().iter().map(|triangle| triangle.map(|vertex| vertex + offset));
+        let positions = [a.positions(), b.positions()].concat();
+        Mesh::new(positions, a.triangles().iter().copied().chain(moved).collect()).unwrap()
+    }
+
+    #[test]
+    fn an_unused_vertex_is_found() {
+        let output = six(&[[0, 1, 2], [2, 1, 4], [4, 1, 5]]);
+        let violation = Violation::UnreferencedVertex { vertex: 3 };
+        assert_eq!(verify(&output, &output, false), Err(violation), "even where the input has it");
+        assert_eq!(violation.to_string(), "no triangle uses vertex 3");
+    }
+
+    #[test]
+    fn each_new_flaw_is_found_and_each_old_one_forgiven() {
+        let clean = [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]];
+        let with = |more: &[[u32; 3]]| six(&[&clean[..], more].concat());
+        let (output, input) = (1, 0);
+        let cases = [
+            (with(&[[1, 5, 1]]), Violation::DegenerateTriangles { triangle: 4, output, input }),
+            (with(&[[3, 1, 2]]), Violation::DuplicateTriangles { triangle: 4, output, input }),
+            (with(&[[1, 2, 5]]), Violation::NonManifoldEdges { vertices: [1, 2], output, input }),
+            (
+                six(&[[0, 1, 2], [0, 3, 4], [3, 5, 4]]),
+                Violation::NonManifoldVertices { vertex: 0, output, input },
+            ),
+            (
+                six(&[[0, 1, 2], [1, 2, 3], [2, 3, 4], [4, 3, 5]]),
+                Violation::InconsistentEdges { vertices: [1, 2], output: 2, input },
+            ),
+        ];
+        for (output, violation) in cases {
+            assert_eq!(verify(&six(&clean), &output, false), Err(violation));
+            assert_eq!(verify(&output, &output, true), Ok(()), "forgiven: {violation}");
+        }
+    }
+
+    #[test]
+    fn a_new_triangle_without_area_is_found() {
+        let input = shapes::plane(2);
+        let mut positions = input.positions().to_vec();
+        positions[0] = positions[1];
+        let output = Mesh::new(positions, input.triangles().to_vec()).unwrap();
+        let violation = Violation::ZeroAreaTriangles { triangle: 0, output: 1, input: 0 };
+        assert_eq!(verify(&input, &output, false), Err(violation));
+        assert_eq!(verify(&output, &output, true), Ok(()));
+        assert_eq!(violation.to_string(), "triangle 0 has no area: 1 have none, 0 in the input");
+    }
+
+    #[test]
+    fn another_topology_is_found_where_it_must_be_kept() {
+        let (sphere, plane, torus) = (shapes::sphere(2), shapes::plane(3), shapes::torus(8, 5));
+        let cases = [
+            (&sphere, &joined(&sphere, &sphere), Violation::Components { output: 2, input: 1 }),
+            (&plane, &sphere, Violation::BoundaryLoops { output: 0, input: 1 }),
+            (&sphere, &torus, Violation::EulerCharacteristic { output: 0, input: 2 }),
+        ];
+        for (input, output, violation) in cases {
+            assert_eq!(verify(input, output, true), Err(violation));
+            assert_eq!(verify(input, output, false), Ok(()));
+        }
+    }
+
+    #[test]
+    fn nothing_is_asked_of_the_topology_of_an_unclean_input() {
+        let plane = shapes::plane(3);
+        for flaw in [[[0, 0, 1]].as_slice(), &[[0, 1, 2], [0, 1, 2]], &[[0, 1, 2], [1, 2, 3]]] {
+            let input = joined(&plane, &six(flaw));
+            assert_eq!(verify(&input, &plane, true), Ok(()), "{flaw:?}");
+        }
+        // Neither an unused vertex nor a triangle without area makes it unclean.
+        let mut positions = plane.positions().to_vec();
+        positions[0] = positions[1];
+        positions.push([0.0; 3]);
+        let input = Mesh::new(positions, plane.triangles().to_vec()).unwrap();
+        let violation = Violation::BoundaryLoops { output: 0, input: 1 };
+        assert_eq!(verify(&input, &shapes::sphere(2), true), Err(violation));
+    }
+
+    proptest! {
+        #[test]
+        fn every_mesh_without_unused_vertices_is_as_sound_as_itself(
+            triangles in prop::collection::vec([0u32..6, 0..6, 0..6], 1..20)
+        ) {
+            let dirty = six(&[triangles.as_slice(), &[[0, 1, 2], [3, 4, 5]]].concat());
+            prop_assert_eq!(verify(&dirty, &dirty, true), Ok(()));
+        }
+    }
+}

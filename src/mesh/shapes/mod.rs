@@ -207,3 +207,134 @@ impl Lattice {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Six times the volume that a closed mesh encloses.
+    fn sextuple_volume(mesh: &Mesh) -> f64 {
+        let corners = |triangle: &[u32; 3]| triangle.map(|v| mesh.positions()[v as usize].map(f64::from));
+        mesh.triangles().iter().map(|triangle| sextuple(corners(triangle))).sum()
+    }
+
+    fn sextuple([a, b, c]: [[f64; 3]; 3]) -> f64 {
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    }
+
+    /// Checks that a mesh is free of flaws, in one piece, with this many triangles, vertices and loops
+    /// and this Euler characteristic.
+    fn check(mesh: &Mesh, triangles: usize, vertices: usize, loops: usize, euler: i64) {
+        let statistics = mesh.statistics();
+        assert_eq!((statistics.triangles, statistics.vertices), (triangles, vertices));
+        assert_eq!(statistics.flaws, Default::default());
+        assert_eq!((statistics.unreferenced_vertices, statistics.duplicate_positions), (0, 0));
+        let topology = statistics.topology;
+        assert!(topology.is_oriented_manifold());
+        assert_eq!((topology.boundary_loops, topology.components), (loops, 1));
+        assert_eq!(topology.euler_characteristic(), euler);
+        assert_eq!(topology.is_closed(), loops == 0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn shapes_are_sound_and_of_the_size_stated(n in 1usize..20, m in 3usize..20, seed in any::<u32>()) {
+            check(&plane(n), 2 * n * n, (n + 1) * (n + 1), 1, 1);
+            check(&cube(n), 12 * n * n, 6 * n * n + 2, 0, 2);
+            check(&sphere(n), 12 * n * n, 6 * n * n + 2, 0, 2);
+            check(&bumpy_sphere(n, seed), 12 * n * n, 6 * n * n + 2, 0, 2);
+            check(&torus(n.max(3), m), 2 * n.max(3) * m, n.max(3) * m, 0, 0);
+        }
+
+        #[test]
+        fn a_stone_is_star_shaped(n in 8usize..40, seed in any::<u32>()) {
+            let stone = bumpy_sphere(n, seed);
+            for triangle in stone.triangles() {
+                let corners = triangle.map(|vertex| stone.positions()[vertex as usize].map(f64::from));
+                prop_assert!(sextuple(corners) > 0.0);
+            }
+            for position in stone.positions() {
+                let radius = position.iter().map(|x| x * x).sum::<f32>().sqrt();
+                prop_assert!((0.499..1.501).contains(&radius));
+            }
+        }
+
+        #[test]
+        fn a_statue_is_sound_and_of_about_the_size_asked(triangles in 1_000usize..40_000) {
+            let statue = statue(triangles);
+            let count = statue.triangles().len();
+            check(&statue, count, count / 2, 0, 0);
+            prop_assert!(count <= triangles);
+            if triangles >= 10_000 {
+                prop_assert!(count as f64 > 0.99 * triangles as f64);
+            }
+            prop_assert!(sextuple_volume(&statue) > 0.0);
+        }
+    }
+
+    #[test]
+    fn surfaces_and_volumes_are_those_of_the_solids() {
+        assert!((plane(7).statistics().surface_area - 1.0).abs() < 1e-6);
+        assert!((cube(5).statistics().surface_area - 6.0).abs() < 1e-6);
+        assert!((sextuple_volume(&cube(5)) - 6.0).abs() < 1e-6);
+        let pi = std::f64::consts::PI;
+        assert!((sextuple_volume(&sphere(64)) / (8.0 * pi) - 1.0).abs() < 1e-3);
+        assert!((sextuple_volume(&torus(200, 200)) / (12.0 * pi * pi * 0.16) - 1.0).abs() < 1e-3);
+        for position in sphere(9).positions() {
+            assert!((position.iter().map(|x| x * x).sum::<f32>().sqrt() - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_lattice_numbers_its_points_in_their_order() {
+        for n in 1..7 {
+            let lattice = Lattice { n };
+            assert!(lattice.points().map(|point| lattice.index(point)).eq(0..6 * n * n + 2));
+        }
+    }
+
+    #[test]
+    fn a_height_field_is_the_graph_of_its_function() {
+        let field = height_field(10, |x, y| x * 2.0 - y).unwrap();
+        assert_eq!(field.triangles(), plane(10).triangles());
+        assert!(field.positions().iter().all(|&[x, y, z]| z == x * 2.0 - y));
+        let error = height_field(2, |x, _| if x == 1.0 { f32::NAN } else { 0.0 }).unwrap_err();
+        assert_eq!(error, MeshError::NotFinite { what: "position", vertex: 2 });
+    }
+
+    #[test]
+    fn threads_do_not_change_a_shape_and_a_seed_does() {
+        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let make = || (bumpy_sphere(30, 1), statue(30_000));
+        assert_eq!(alone.install(make), three.install(make));
+        assert_ne!(bumpy_sphere(3, 1), bumpy_sphere(3, 2));
+    }
+
+    #[test]
+    fn sizes_out_of_range_are_held_to_it() {
+        assert_eq!(plane(0), plane(1));
+        assert_eq!(cube(0), cube(1));
+        assert_eq!(torus(0, 1), torus(3, 3));
+        assert_eq!(statue(0), statue(1_000));
+    }
+
+    #[test]
+    fn noise_is_smooth_bounded_and_not_flat() {
+        let mut largest = 0f32;
+        for step in 0..20_000 {
+            let position = [step as f32 * 0.013, 0.37 - step as f32 * 0.007, step as f32 * 0.003];
+            let here = noise::gradient_noise(position, 5);
+            let beside = noise::gradient_noise([position[0] + 1e-3, position[1], position[2]], 5);
+            assert!((here - beside).abs() < 5e-3, "a jump at {position:?}");
+            largest = largest.max(here.abs());
+        }
+        assert!((0.4..1.1).contains(&largest), "largest {largest}");
+    }
+}
