@@ -438,20 +438,20 @@ fn vertices_no_triangle_uses_do_not_count() {
 #[test]
 fn boxes_that_tie_or_crowd_do_not_stall_the_tree() {
     let ribbon = plane(30_000, 1);
-    let heap = mesh(plane(1, 1).positions().to_vec(), vec![[0, 1, 3]; 30_000]);
+    let heap = mesh(plane(1, 1).positions().to_vec(), vec![[0, 1, 3]; 5_000]);
     let line = mesh(ribbon.positions().to_vec(), (0..30_000).map(|i| [i, i + 1, i]).collect());
-    let crowd = (0..30_000).flat_map(|i| {
+    let crowd = (0..3_000).flat_map(|i| {
         let halving = 0.995f32.powi(i);
         [[halving, 0.0, halving], [halving, 1.0, 0.0], [0.0, halving, 1.0]]
     });
-    let crowd = mesh(crowd.collect(), (0..30_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
+    let crowd = mesh(crowd.collect(), (0..3_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
     for (name, hostile) in [("ribbon", &ribbon), ("heap", &heap), ("line", &line), ("crowd", &crowd)] {
         let lifted = mapped(hostile, |p| p + Vec3::Z * 3.0);
-        let measured = measure(hostile, &lifted, 2000);
+        let measured = measure(hostile, &lifted, 500);
         assert!(measured.max > 1.9 && measured.max <= 3.0 + 1e-6, "{name}: {measured:?}");
         assert!(values(&measured).iter().all(|value| value.is_finite()), "{name}: {measured:?}");
         // On top of itself everything ties.
-        assert_eq!(measure(hostile, hostile, 2000).max, 0.0, "{name}");
+        assert_eq!(measure(hostile, hostile, 500).max, 0.0, "{name}");
     }
 }
 
