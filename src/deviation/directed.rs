@@ -89,12 +89,14 @@ impl<'a> Direction<'a> {
     }
 
     /// Vertices only matter where they raise the maximum: the search for the nearest triangle ends
-    /// as soon as one is no farther than `enough`. Most end at the first guess.
+    /// as soon as one is no farther than what is known already. Most end at the first guess.
     fn farthest_vertex(&self, block: Range<usize>, enough: f64) -> Totals {
         let mut max_squared = enough;
+        let negligible = self.noise * self.noise;
         let mut guess = 0;
         for &vertex in &self.vertices[block] {
-            let nearest = self.to.nearest(self.from.position(vertex), guess, max_squared);
+            let enough = max_squared.max(negligible);
+            let nearest = self.to.nearest(self.from.position(vertex), guess, enough);
             guess = nearest.triangle;
             max_squared = max_squared.max(self.squared(nearest.squared));
         }

@@ -125,8 +125,11 @@ pub enum DeviationError {
 /// coordinate, which is far below what `f32` positions can tell apart, are rounding and count as 0.
 ///
 /// The result depends on the meshes, the samples and the seed alone, bit by bit. Exchanging the
-/// meshes exchanges the directions. Both meshes and a tree over each are held in memory: about 110
-/// bytes a triangle, half as much again while building.
+/// meshes exchanges the directions.
+///
+/// Building takes O(n log n). A point costs about O(log n), less where the surfaces are close; only
+/// where many triangles coincide does it look at all of them. The positions of both meshes and a
+/// tree over each are held in memory: about 110 bytes a triangle, and more while building.
 ///
 /// The monitor is told of progress on the calling thread, and may cancel.
 pub fn deviation(

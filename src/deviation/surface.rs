@@ -16,8 +16,8 @@ use crate::Mesh;
 /// depth of the tree is bounded by the grid however unevenly the triangles crowd.
 const CELLS: f64 = (1 << 22) as f64;
 
-/// Of triangles at the same distance, at most this many are compared by normal. Without a limit a
-/// heap of coincident triangles would cost all of them for every point.
+/// Of triangles at the same distance, at most this many are compared by normal: enough for a corner
+/// of any tame mesh, and a short list where thousands of triangles meet or coincide.
 const MAX_TIES: usize = 32;
 
 /// Triangles as near as the nearest one up to this relative difference tie with it.
