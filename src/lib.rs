@@ -1,6 +1,7 @@
 //! decimesh: triangle-mesh simplification.
 
 mod collapse;
+#[cfg(feature = "deviation")]
 pub mod deviation;
 pub mod hqms;
 #[cfg(feature = "io")]

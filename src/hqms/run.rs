@@ -14,9 +14,14 @@ use crate::workers::Workers;
 /// The finish begins when the surface is this many times larger than the goal...
 const FINISH_RATIO: f32 = 1.5;
 /// ...and has at most so many vertices: its heap takes ten times as long as a pass.
-const FINISH_VERTICES: usize = 50_000;
+const FINISH_VERTICES: usize = 12_000;
+/// So few vertices are finished however far the goal is.
+const FEW_VERTICES: usize = 1000;
 /// A run may have to come back to where the surface was this many times larger than the goal.
-const STUCK_RATIO: f32 = 20.0;
+const STUCK_RATIO: f32 = 10.0;
+/// At more vertices than this, the way back is not kept: it takes memory, and so large a surface
+/// does not get stuck before its end.
+const STUCK_VERTICES: usize = 50_000;
 /// Below this share of its vertices to remove, a surface that is too large for the finish ends
 /// with a ranked pass.
 const RANKED_SHARE: f32 = 0.05;
@@ -58,7 +63,11 @@ impl<'a> Run<'a> {
     }
 
     /// Goes on until `target` is met, or cannot be.
-    pub(crate) fn reach(&mut self, target: Target, monitor: &mut Monitor) -> Result<StoppedBy, SimplifyError> {
+    pub(crate) fn reach(
+        &mut self,
+        target: Target,
+        monitor: &mut Monitor,
+    ) -> Result<StoppedBy, SimplifyError> {
         check_target(target)?;
         let goal = Goal::new(target, self.input);
         let error_limit = match target {
@@ -84,7 +93,7 @@ impl<'a> Run<'a> {
             report(self.counts)?;
             self.surface.build_rings(&self.workers);
         }
-        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= FINISH_VERTICES) {
+        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= STUCK_VERTICES) {
             if may_relax && checkpoint.is_none() {
                 checkpoint = Some((self.surface.snapshot(), self.counts));
             }
@@ -109,8 +118,9 @@ impl<'a> Run<'a> {
 
     /// Whether what is left is for the finish.
     fn is_near(&self, goal: Goal) -> bool {
-        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= crate::workers::tune("FR",FINISH_RATIO));
-        near && self.counts.vertices <= crate::workers::tune("FV",FINISH_VERTICES as f32) as usize
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
+        let vertices = self.counts.vertices;
+        vertices <= FEW_VERTICES || near && vertices <= FINISH_VERTICES
     }
 
     fn pass(
@@ -145,8 +155,8 @@ impl<'a> Run<'a> {
     /// the link condition does last is to ruin large parts for the sake of tiny ones: a run that
     /// then gives the condition up has to go back to before that.
     fn may_get_stuck(&self, goal: Goal) -> bool {
-        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= crate::workers::tune("SR", STUCK_RATIO));
-        near && self.counts.vertices <= FINISH_VERTICES
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= STUCK_RATIO);
+        near && self.counts.vertices <= STUCK_VERTICES.min(self.input.positions().len() / 3)
     }
 
     fn finish(
