@@ -2,6 +2,7 @@
 
 pub mod deviation;
 pub mod hqms;
+#[cfg(feature = "io")]
 pub mod io;
 pub mod mesh;
 mod monitor;
