@@ -9,7 +9,7 @@
 //! weights of equation 2), and the linear system of the optimal placement is regularised towards
 //! the middle of the edge, so that it has one solution on flat and cylindrical regions too.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 /// How much the placement is drawn to the middle of the edge, as a share of the quadric's trace.
 ///
@@ -35,7 +35,7 @@ pub(crate) struct Quadric {
 impl Quadric {
     /// Adds the plane with this (any length) `normal`, each unit of squared length weighing `weight`.
     #[inline(always)]
-    pub(crate) fn add_plane(&mut self, normal: Vec3, weight: f32) {
+    pub(crate) fn add_plane(&mut self, normal: Vec3A, weight: f32) {
         let scaled = normal * weight;
         self.xx += scaled.x * normal.x;
         self.xy += scaled.x * normal.y;
@@ -45,16 +45,9 @@ impl Quadric {
         self.zz += scaled.z * normal.z;
     }
 
-    /// Adds the plane of a face, weighted by its area; `cross` is the cross product of two of its
-    /// edges. A face without area adds nothing.
-    #[inline(always)]
-    pub(crate) fn add_face(&mut self, cross: Vec3) {
-        self.add_plane(cross, 0.5 / (cross.length_squared() + f32::MIN_POSITIVE).sqrt());
-    }
-
     /// Adds the plane through `edge`, perpendicular to a face that ends there, weighted by the
     /// edge's squared length, so that it counts like the faces on the other side would.
-    pub(crate) fn add_border(&mut self, edge: Vec3, cross: Vec3) {
+    pub(crate) fn add_border(&mut self, edge: Vec3A, cross: Vec3A) {
         let normal = edge.cross(cross);
         let length_squared = normal.length_squared();
         if length_squared > f32::MIN_POSITIVE {
@@ -64,7 +57,7 @@ impl Quadric {
 
     /// The weighted sum of squared distances at `x`.
     #[inline(always)]
-    pub(crate) fn at(&self, x: Vec3) -> f32 {
+    pub(crate) fn at(&self, x: Vec3A) -> f32 {
         let cost = x.x * (self.xx * x.x + 2.0 * (self.xy * x.y + self.xz * x.z))
             + x.y * (self.yy * x.y + 2.0 * self.yz * x.z)
             + x.z * self.zz * x.z;
@@ -75,8 +68,8 @@ impl Quadric {
         self.xx + self.yy + self.zz
     }
 
-    fn apply(&self, x: Vec3) -> Vec3 {
-        Vec3::new(
+    fn apply(&self, x: Vec3A) -> Vec3A {
+        Vec3A::new(
             self.xx * x.x + self.xy * x.y + self.xz * x.z,
             self.xy * x.x + self.yy * x.y + self.yz * x.z,
             self.xz * x.x + self.yz * x.y + self.zz * x.z,
@@ -97,7 +90,7 @@ impl Quadric {
     /// Solves `(A + shift I) x = right` by LDLᵀ without pivoting, which is stable as the matrix is
     /// positive definite. Not finite where it is not.
     #[inline(always)]
-    fn solve(&self, shift: f32, right: Vec3) -> Vec3 {
+    fn solve(&self, shift: f32, right: Vec3A) -> Vec3A {
         let inverse_0 = 1.0 / (self.xx + shift);
         let l10 = self.xy * inverse_0;
         let l20 = self.xz * inverse_0;
@@ -110,7 +103,33 @@ impl Quadric {
         let z = y2 / pivot_2;
         let y = y1 * inverse_1 - l21 * z;
         let x = right.x * inverse_0 - l10 * y - l20 * z;
-        Vec3::new(x, y, z)
+        Vec3A::new(x, y, z)
+    }
+}
+
+/// A [`Quadric`] in the making: the rows of the whole matrix, as vectors of four lanes. Adding a
+/// plane to them takes a third of the instructions that it takes with six numbers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct QuadricSum {
+    rows: [Vec3A; 3],
+}
+
+impl QuadricSum {
+    /// Adds the plane of a face, weighted by its area; `cross` is the cross product of two of its
+    /// edges. A face without area adds nothing.
+    #[inline(always)]
+    pub(crate) fn add_face(&mut self, cross: Vec3A) {
+        let scaled = cross * (0.5 / (cross.length_squared() + f32::MIN_POSITIVE).sqrt());
+        self.rows[0] += cross * scaled.x;
+        self.rows[1] += cross * scaled.y;
+        self.rows[2] += cross * scaled.z;
+    }
+
+    /// The sum.
+    #[inline(always)]
+    pub(crate) fn quadric(&self) -> Quadric {
+        let [x, y, z] = self.rows;
+        Quadric { xx: x.x, xy: x.y, xz: x.z, yy: y.y, yz: y.z, zz: z.z }
     }
 }
 
@@ -118,7 +137,7 @@ impl Quadric {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placement {
     /// The new place, relative to the source.
-    pub(crate) offset: Vec3,
+    pub(crate) offset: Vec3A,
     /// The weighted sum of squared distances there, plus the regularisation: among placements
     /// that are equally good, the shorter edge is the cheaper.
     pub(crate) cost: f32,
@@ -131,13 +150,13 @@ pub(crate) struct Placement {
 /// flat-faced solids do not creep. Where the optimum lies more than three edge lengths away (the
 /// planes are nearly parallel), the best of both ends and the middle is taken.
 #[inline(always)]
-pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3) -> Placement {
+pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placement {
     let sum = source.plus(target);
     let length_squared = edge.length_squared();
     let trace = sum.trace();
     let rounding = ROUNDING * trace * length_squared;
     let shift = REGULARISATION * trace + f32::MIN_POSITIVE;
-    let drawn = |offset: Vec3| shift * (offset - 0.5 * edge).length_squared();
+    let drawn = |offset: Vec3A| shift * (offset - 0.5 * edge).length_squared();
     let pull = target.apply(edge);
     let constant = pull.dot(edge);
     let at_target = source.at(edge);
@@ -145,7 +164,7 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3) -> Placement
         return Placement { offset: edge, cost: at_target + drawn(edge) };
     }
     if constant <= rounding {
-        return Placement { offset: Vec3::ZERO, cost: constant.max(0.0) + drawn(edge) };
+        return Placement { offset: Vec3A::ZERO, cost: constant.max(0.0) + drawn(edge) };
     }
     let offset = sum.solve(shift, pull + 0.5 * shift * edge);
     if offset.length_squared() < 9.0 * length_squared {
@@ -155,7 +174,7 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3) -> Placement
     let middle = 0.5 * edge;
     let at_middle = source.at(middle) + target.at(middle);
     let mut best = Placement { offset: middle, cost: at_middle };
-    for (offset, cost) in [(edge, at_target), (Vec3::ZERO, constant)] {
+    for (offset, cost) in [(edge, at_target), (Vec3A::ZERO, constant)] {
         if cost < best.cost {
             best = Placement { offset, cost };
         }

@@ -10,7 +10,7 @@ pub(crate) mod surface;
 pub(crate) mod tile;
 
 use crate::quadric::place;
-use glam::Vec3;
+use glam::{Vec3A, Vec4};
 use ring::{Ring, Spoke};
 
 /// What a collapse must not do.
@@ -27,23 +27,20 @@ pub(crate) struct Rules {
 pub(crate) struct Edge<'a> {
     pub(crate) source: &'a Ring,
     pub(crate) target: &'a Ring,
-    pub(crate) source_position: Vec3,
-    pub(crate) target_position: Vec3,
+    /// Where they are, and the errors that led there: see [`surface::Surface::points`].
+    pub(crate) source_point: Vec4,
+    pub(crate) target_point: Vec4,
     /// `target` must not move.
     pub(crate) target_locked: bool,
-    /// The larger of the errors that led to the two ends.
-    pub(crate) error: f32,
 }
 
 /// A legal collapse.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Collapse {
-    /// Where the target goes.
-    pub(crate) position: Vec3,
+    /// Where the target goes, and the estimated distance of its surroundings from the input.
+    pub(crate) point: Vec4,
     /// How far along the edge that is, 0 at the source, 1 at the target: for attributes.
     pub(crate) along: f32,
-    /// The estimated distance of the new vertex's surroundings from the input.
-    pub(crate) error: f32,
 }
 
 /// The cosine, squared, of the largest angle that a face may turn by at one collapse (84 degrees).
@@ -59,25 +56,26 @@ impl Edge<'_> {
         if !rules.any_topology && !self.keeps_topology(neighbours) {
             return None;
         }
-        let edge = self.target_position - self.source_position;
+        let from = Vec3A::from_vec4(self.source_point);
+        let into = Vec3A::from_vec4(self.target_point);
+        let edge = into - from;
         let position = if self.target_locked {
-            self.target_position
+            into
         } else {
-            self.source_position + place(&self.source.quadric, &self.target.quadric, edge).offset
+            from + place(&self.source.quadric, &self.target.quadric, edge).offset
         };
         // What is checked is the place after rounding: far from the origin that is another one.
-        let from_source = position - self.source_position;
-        let from_target = position - self.target_position;
+        let from_source = position - from;
         let distance_squared = f32::max(
             fold(self.source, self.target.vertex, from_source)?,
-            fold(self.target, self.source.vertex, from_target)?,
+            fold(self.target, self.source.vertex, position - into)?,
         );
-        let error = self.error + distance_squared.sqrt();
+        let error = self.source_point.w.max(self.target_point.w) + distance_squared.sqrt();
         if error > rules.error_limit || !position.is_finite() {
             return None;
         }
         let along = (from_source.dot(edge) / edge.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        Some(Collapse { position, along, error })
+        Some(Collapse { point: position.extend(error), along })
     }
 
     /// The link condition (Dey, Edelsbrunner, Guha and Nekhayev): the common neighbours of both
@@ -86,22 +84,17 @@ impl Edge<'_> {
     #[inline(always)]
     fn keeps_topology(&self, neighbours: &mut [Vec<u32>; 2]) -> bool {
         let (source, target) = (self.source, self.target);
-        let touches = |spoke: &&Spoke| (spoke.next == source.vertex) | (spoke.previous == source.vertex);
-        let shared = target.spokes().iter().filter(touches).count();
+        let (after, before) = target.occurrences(source.vertex);
+        let shared = after + before;
         if shared == 0 || shared > 2 {
             return false;
         }
         if source.boundary || target.boundary {
-            return shared_by_borders(source, target, shared, neighbours);
+            return keeps_borders(source, target, shared as usize, neighbours);
         }
         // All rings are closed fans: each neighbour stands once as `next`.
-        let mut common = 0;
-        for spoke in target.spokes() {
-            for other in source.spokes() {
-                common += usize::from(spoke.next == other.next);
-            }
-        }
-        let around = source.spokes().len() + target.spokes().len() - 2 - common.min(2);
+        let common = source.common_next(target);
+        let around = source.spokes().len() + target.spokes().len() - 2 - common.min(2) as usize;
         shared == 2 && common == 2 && around >= 3
     }
 }
@@ -109,7 +102,7 @@ impl Edge<'_> {
 /// [`Edge::keeps_topology`] where a ring may be open.
 #[cold]
 #[inline(never)]
-fn shared_by_borders(source: &Ring, target: &Ring, shared: usize, neighbours: &mut [Vec<u32>; 2]) -> bool {
+fn keeps_borders(source: &Ring, target: &Ring, shared: usize, neighbours: &mut [Vec<u32>; 2]) -> bool {
     let [of_source, of_target] = neighbours;
     source.neighbours(of_source);
     target.neighbours(of_target);
@@ -123,18 +116,20 @@ fn shared_by_borders(source: &Ring, target: &Ring, shared: usize, neighbours: &m
 /// `other`: `None` if one turns by too much, else the largest squared distance of the new place
 /// from the planes of the ring.
 #[inline(always)]
-fn fold(ring: &Ring, other: u32, offset: Vec3) -> Option<f32> {
+fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
     let mut distance_squared = 0f32;
     let mut folded = false;
-    for spoke in ring.spokes() {
+    for ((&next, &previous), spoke) in ring.next().iter().zip(ring.previous()).zip(ring.spokes()) {
         let before = spoke.cross;
         let after = before + offset.cross(spoke.to_next - spoke.to_previous);
         let area_before = before.length_squared();
         let area_after = after.length_squared();
         let cosine = before.dot(after);
         let turns = (cosine <= 0.0) | (cosine * cosine < TURN * area_before * area_after);
-        let survives = (spoke.next != other) & (spoke.previous != other);
-        folded |= survives & turns & !is_sliver(spoke, area_before);
+        let survives = (next != other) & (previous != other);
+        if survives & turns && !is_sliver(spoke, area_before) {
+            folded = true;
+        }
         let height = before.dot(offset);
         distance_squared = distance_squared.max(height * height / (area_before + f32::MIN_POSITIVE));
     }

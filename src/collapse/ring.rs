@@ -1,24 +1,29 @@
 //! A vertex with all that surrounds it, gathered once for cost, legality and placement.
 
-use crate::quadric::Quadric;
-use glam::Vec3;
+use super::surface::NONE;
+use crate::quadric::{Quadric, QuadricSum};
+use glam::Vec3A;
 
-/// One face around a vertex, as seen from it.
+/// The shape of one face around a vertex, as seen from it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Spoke {
-    /// The corner after the vertex, and the one before it.
-    pub(crate) next: u32,
-    pub(crate) previous: u32,
-    /// From the vertex to each of them.
-    pub(crate) to_next: Vec3,
-    pub(crate) to_previous: Vec3,
+    /// From the vertex to the corner after it, and to the one before it.
+    pub(crate) to_next: Vec3A,
+    pub(crate) to_previous: Vec3A,
     /// `to_next x to_previous`: along the face's normal, twice its area long.
-    pub(crate) cross: Vec3,
+    pub(crate) cross: Vec3A,
 }
+
+/// Names are compared this many at a time.
+const LANES: usize = 8;
 
 /// The faces around a vertex, with the vertex as origin, and the quadric of their planes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ring {
+    /// The corner after the vertex and the one before it in each face, filled up with [`NONE`] to a
+    /// multiple of [`LANES`].
+    next: Vec<u32>,
+    previous: Vec<u32>,
     spokes: Vec<Spoke>,
     count: usize,
     pub(crate) vertex: u32,
@@ -27,62 +32,99 @@ pub(crate) struct Ring {
     pub(crate) quadric: Quadric,
 }
 
-impl Ring {
-    /// Empties the ring for `vertex`, with room for `capacity` faces.
-    #[inline(always)]
-    pub(crate) fn begin(&mut self, vertex: u32, boundary: bool, capacity: usize) {
-        self.vertex = vertex;
-        self.boundary = boundary;
-        self.count = 0;
-        if self.spokes.len() < capacity {
-            self.spokes.resize(capacity.next_power_of_two(), Spoke::default());
-        }
-    }
+/// A ring being filled. Its parts are borrowed apart, so that they and the sum stay in registers
+/// from face to face.
+pub(crate) struct Gathering<'a> {
+    next: &'a mut [u32],
+    previous: &'a mut [u32],
+    spokes: &'a mut [Spoke],
+    count: usize,
+    sum: QuadricSum,
+}
 
-    /// Adds a face and, to `quadric`, its plane. The caller holds the quadric, so that it stays in
-    /// registers along the ring (a third of the time of a gather otherwise goes into storing and
-    /// reloading it); [`finish`](Self::finish) takes it in.
+impl Gathering<'_> {
+    /// Adds a face. No more may be added than there is room for.
     #[inline(always)]
-    pub(crate) fn push(
-        &mut self,
-        quadric: &mut Quadric,
-        next: u32,
-        previous: u32,
-        to_next: Vec3,
-        to_previous: Vec3,
-    ) {
+    pub(crate) fn push(&mut self, next: u32, previous: u32, to_next: Vec3A, to_previous: Vec3A) {
         let cross = to_next.cross(to_previous);
-        quadric.add_face(cross);
-        self.spokes[self.count] = Spoke { next, previous, to_next, to_previous, cross };
+        self.sum.add_face(cross);
+        self.next[self.count] = next;
+        self.previous[self.count] = previous;
+        self.spokes[self.count] = Spoke { to_next, to_previous, cross };
         self.count += 1;
     }
+}
 
-    /// Ends the gathering: adds the planes that hold borders to `quadric` and keeps it.
+impl Ring {
+    /// Empties the ring for `vertex` and lets `fill` add up to `room` faces; then adds the planes
+    /// that hold borders. What `fill` answers is returned.
     #[inline(always)]
-    pub(crate) fn finish(&mut self, quadric: Quadric) {
-        self.quadric = quadric;
-        if self.boundary {
+    pub(crate) fn gather(
+        &mut self,
+        vertex: u32,
+        boundary: bool,
+        room: usize,
+        fill: impl FnOnce(&mut Gathering) -> bool,
+    ) -> bool {
+        let padded = room.next_multiple_of(LANES);
+        if self.spokes.len() < padded {
+            self.next.resize(padded, NONE);
+            self.previous.resize(padded, NONE);
+            self.spokes.resize(padded, Spoke::default());
+        }
+        let mut gathering = Gathering {
+            next: &mut self.next[..padded],
+            previous: &mut self.previous[..padded],
+            spokes: &mut self.spokes[..padded],
+            count: 0,
+            sum: QuadricSum::default(),
+        };
+        let complete = fill(&mut gathering);
+        let Gathering { next, previous, count, sum, .. } = gathering;
+        for index in count..count.next_multiple_of(LANES) {
+            next[index] = NONE;
+            previous[index] = NONE;
+        }
+        self.count = count;
+        self.vertex = vertex;
+        self.boundary = boundary;
+        self.quadric = sum.quadric();
+        if boundary && complete {
             self.add_border_planes();
         }
+        complete
     }
 
-    /// The faces, in no particular order.
+    /// The shapes of the faces.
     #[inline(always)]
     pub(crate) fn spokes(&self) -> &[Spoke] {
         &self.spokes[..self.count]
     }
 
-    /// Whether no face is left around the vertex.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.count == 0
+    /// The corner after the vertex in each face.
+    #[inline(always)]
+    pub(crate) fn next(&self) -> &[u32] {
+        &self.next[..self.count]
     }
 
-    /// How many faces name `vertex`, as next and as previous.
-    fn occurrences(&self, vertex: u32) -> (usize, usize) {
-        let spokes = self.spokes().iter();
-        spokes.fold((0, 0), |(next, previous), spoke| {
-            (next + usize::from(spoke.next == vertex), previous + usize::from(spoke.previous == vertex))
-        })
+    /// The corner before the vertex in each face.
+    #[inline(always)]
+    pub(crate) fn previous(&self) -> &[u32] {
+        &self.previous[..self.count]
+    }
+
+    /// In how many faces `vertex` comes after the ring's, and in how many before.
+    #[inline(always)]
+    pub(crate) fn occurrences(&self, vertex: u32) -> (u32, u32) {
+        let padded = self.count.next_multiple_of(LANES);
+        (count_equal(&self.next[..padded], vertex), count_equal(&self.previous[..padded], vertex))
+    }
+
+    /// How many vertices come after the vertex of this ring and of `other`.
+    #[inline(always)]
+    pub(crate) fn common_next(&self, other: &Self) -> u32 {
+        let padded = self.count.next_multiple_of(LANES);
+        other.next().iter().map(|&vertex| count_equal(&self.next[..padded], vertex)).sum()
     }
 
     /// Every edge to the vertex that has not two faces of one orientation is held by a plane for
@@ -90,14 +132,15 @@ impl Ring {
     #[cold]
     #[inline(never)]
     fn add_border_planes(&mut self) {
-        for index in 0..self.count {
-            let spoke = self.spokes[index];
-            for (neighbour, edge) in [(spoke.next, spoke.to_next), (spoke.previous, spoke.to_previous)] {
+        let mut quadric = self.quadric;
+        for ((&next, &previous), spoke) in self.next().iter().zip(self.previous()).zip(self.spokes()) {
+            for (neighbour, edge) in [(next, spoke.to_next), (previous, spoke.to_previous)] {
                 if self.occurrences(neighbour) != (1, 1) {
-                    self.quadric.add_border(edge, spoke.cross);
+                    quadric.add_border(edge, spoke.cross);
                 }
             }
         }
+        self.quadric = quadric;
     }
 
     /// The neighbour, of those that are `eligible`, at which this vertex's quadric is least, and
@@ -106,18 +149,18 @@ impl Ring {
     pub(crate) fn cheapest_neighbour(&self, eligible: impl Fn(u32) -> bool) -> Option<(f32, u32)> {
         // Costs are not negative, so their bits order as they do, and one integer compares both.
         let mut best = u64::MAX;
-        let mut consider = |neighbour: u32, edge: Vec3| {
+        let mut consider = |neighbour: u32, edge: Vec3A| {
             let key = u64::from(self.quadric.at(edge).to_bits()) << 32 | u64::from(neighbour);
             if eligible(neighbour) {
                 best = best.min(key);
             }
         };
-        for spoke in self.spokes() {
-            consider(spoke.next, spoke.to_next);
+        for (&next, spoke) in self.next().iter().zip(self.spokes()) {
+            consider(next, spoke.to_next);
         }
         if self.boundary {
-            for spoke in self.spokes() {
-                consider(spoke.previous, spoke.to_previous);
+            for (&previous, spoke) in self.previous().iter().zip(self.spokes()) {
+                consider(previous, spoke.to_previous);
             }
         }
         (best != u64::MAX).then(|| (f32::from_bits((best >> 32) as u32), best as u32))
@@ -126,8 +169,15 @@ impl Ring {
     /// Each neighbour once, in ascending order, into `neighbours`.
     pub(crate) fn neighbours(&self, neighbours: &mut Vec<u32>) {
         neighbours.clear();
-        neighbours.extend(self.spokes().iter().flat_map(|spoke| [spoke.next, spoke.previous]));
+        neighbours.extend(self.next().iter().chain(self.previous()));
         neighbours.sort_unstable();
         neighbours.dedup();
     }
+}
+
+/// How often `name` is among `names`, whose count is a multiple of [`LANES`].
+#[inline(always)]
+fn count_equal(names: &[u32], name: u32) -> u32 {
+    let (groups, _) = names.as_chunks::<LANES>();
+    groups.iter().map(|group| group.iter().map(|&other| u32::from(other == name)).sum::<u32>()).sum()
 }

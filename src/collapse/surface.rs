@@ -1,13 +1,13 @@
 //! The mesh while it is being simplified: the one mutable copy, in few bytes.
 //!
-//! Per vertex 12 bytes of position, 4 of error, 1 of flags and 4 of offsets; per face 12 bytes of
+//! Per vertex 16 bytes of position and error, 1 of flags and 4 of offsets; per face 12 bytes of
 //! corners and 12 of incidence: about 35 bytes a triangle of a closed mesh. Offsets serve a second
 //! time as the map of [`Surface::compact`].
 
 use super::tile::Tile;
 use crate::mesh::{Attributes, Mesh, MeshError};
 use crate::workers::Workers;
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Three corners. Atomic only so that tiles that work side by side may read the faces between
@@ -39,21 +39,20 @@ const VERTEX_BLOCK: usize = 1 << 15;
 
 /// A surface at an earlier time.
 pub(crate) struct Snapshot {
-    positions: Vec<Vec3>,
+    points: Vec<Vec4>,
     faces: Vec<[u32; 3]>,
     flags: Vec<u8>,
-    errors: Vec<f32>,
     attributes: Attributes,
     origins: Option<Vec<u32>>,
 }
 
 /// A mesh in the course of its simplification.
 pub(crate) struct Surface {
-    pub(crate) positions: Vec<Vec3>,
+    /// For each vertex its position and, as the fourth coordinate, the estimated distance of its
+    /// surroundings from the input: sixteen bytes are read at once where twelve are not.
+    pub(crate) points: Vec<Vec4>,
     pub(crate) faces: Vec<Face>,
     pub(crate) flags: Vec<u8>,
-    /// For each vertex, the estimated distance of its surroundings from the input.
-    pub(crate) errors: Vec<f32>,
     pub(crate) attributes: Attributes,
     /// What each vertex was collapsed into, in this pass; empty when nobody asked for origins.
     pub(crate) merged: Vec<u32>,
@@ -74,20 +73,19 @@ impl Surface {
         let scale = unit_scale(mesh.positions());
         let count = mesh.positions().len();
         let place = |vertex: u32| rank.map_or(vertex, |rank| rank[vertex as usize]);
-        let scaled = mesh.positions().iter().map(|&position| Vec3::from(position) * scale);
+        let scaled = mesh.positions().iter().map(|&position| (Vec3::from(position) * scale).extend(0.0));
         let mut flags = vec![0; count];
         for &vertex in locked {
             flags[place(vertex) as usize] |= flag::LOCKED;
         }
         let attributes = mesh.attributes();
         Self {
-            positions: match rank {
+            points: match rank {
                 None => scaled.collect(),
                 Some(rank) => scatter(scaled, rank),
             },
             faces: ordered_faces(mesh.triangles(), count, rank),
             flags,
-            errors: vec![0.0; count],
             attributes: match rank {
                 None => attributes.clone(),
                 Some(rank) => Attributes {
@@ -111,7 +109,7 @@ impl Surface {
 
     /// Builds the rings, in time linear in the faces. Within a ring, corners are in face order.
     pub(crate) fn build_rings(&mut self, workers: &Workers) {
-        let vertices = self.positions.len();
+        let vertices = self.points.len();
         let Self { faces, offsets, incidence, .. } = self;
         offsets.clear();
         offsets.resize(vertices + 1, 0);
@@ -225,9 +223,8 @@ impl Surface {
     /// The surface cut into tiles before each of the vertices `cuts`, which ascend.
     pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
         let whole = Tile::new(
-            &mut self.positions,
+            &mut self.points,
             &mut self.flags,
-            &mut self.errors,
             &mut self.merged,
             &mut self.attributes,
             &self.faces,
@@ -247,19 +244,17 @@ impl Surface {
     /// vertex is used any more. The rings are lost.
     pub(crate) fn compact(&mut self, workers: &Workers) {
         let Self {
-            positions,
+            points,
             faces,
             flags,
-            errors,
             attributes,
             merged,
             origins,
             offsets: map,
-            incidence,
             ..
         } = self;
         map.clear();
-        map.reserve(positions.len());
+        map.reserve(points.len());
         let mut kept = 0;
         map.extend(flags.iter().map(|flags| {
             let dead = flags & flag::DEAD != 0;
@@ -274,8 +269,7 @@ impl Surface {
             merged.clear();
             merged.extend(0..kept);
         }
-        retain_alive(positions, flags);
-        retain_alive(errors, flags);
+        retain_alive(points, flags);
         let Attributes { normals, colors, uvs } = attributes;
         normals.iter_mut().for_each(|normals| retain_alive(normals, flags));
         colors.iter_mut().for_each(|colors| retain_alive(colors, flags));
@@ -299,7 +293,7 @@ impl Surface {
     /// The surface as a mesh in the scale of the input, without vertices that no face uses; and for
     /// each vertex of the input the vertex it is in, if that was tracked.
     pub(crate) fn to_mesh(&self) -> Result<(Mesh, Option<Vec<u32>>), MeshError> {
-        let mut map = vec![NONE; self.positions.len()];
+        let mut map = vec![NONE; self.points.len()];
         let alive = || self.faces.iter().filter(|face| is_alive(face));
         alive().flatten().for_each(|corner| map[corner.load(Relaxed) as usize] = 0);
         let mut used = 0;
@@ -312,7 +306,7 @@ impl Surface {
         triangles
             .extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
         let mut positions = Vec::with_capacity(used as usize);
-        positions.extend(only_used(&self.positions, &map).map(|&position| (position * unscale).to_array()));
+        positions.extend(only_used(&self.points, &map).map(|&point| (point.truncate() * unscale).to_array()));
         let attributes = Attributes {
             normals: self.attributes.normals.as_ref().map(|n| only_used(n, &map).copied().collect()),
             colors: self.attributes.colors.as_ref().map(|c| only_used(c, &map).copied().collect()),
@@ -328,10 +322,9 @@ impl Surface {
     pub(crate) fn snapshot(&self) -> Snapshot {
         let corners = |face: &Face| face.each_ref().map(|corner| corner.load(Relaxed));
         Snapshot {
-            positions: self.positions.clone(),
+            points: self.points.clone(),
             faces: self.faces.iter().map(corners).collect(),
             flags: self.flags.clone(),
-            errors: self.errors.clone(),
             attributes: self.attributes.clone(),
             origins: self.origins.clone(),
         }
@@ -340,12 +333,11 @@ impl Surface {
     /// Back to a snapshot. Rings are lost.
     pub(crate) fn restore(&mut self, snapshot: Snapshot) {
         if self.origins.is_some() {
-            self.merged = (0..snapshot.positions.len() as u32).collect();
+            self.merged = (0..snapshot.points.len() as u32).collect();
         }
-        self.positions = snapshot.positions;
+        self.points = snapshot.points;
         self.faces = snapshot.faces.into_iter().map(|face| face.map(AtomicU32::new)).collect();
         self.flags = snapshot.flags;
-        self.errors = snapshot.errors;
         self.attributes = snapshot.attributes;
         self.origins = snapshot.origins;
     }

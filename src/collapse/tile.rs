@@ -1,16 +1,15 @@
 //! A run of vertices that one thread works on: what a pass may touch.
 //!
-//! A tile holds the positions, flags, errors and attributes of its own vertices alone. It sees all
+//! A tile holds the points, flags and attributes of its own vertices alone. It sees all
 //! faces, but changes only those with all three corners in the tile: these no other tile changes,
 //! and a face between tiles nobody does. A ring that leaves the tile is not gathered at all. So
 //! tiles can work side by side without locks, and what each does depends on nothing the others do.
 
 use super::ring::Ring;
-use super::surface::{Face, NONE, flag, neighbours};
+use super::surface::{Face, NONE, flag, is_alive, neighbours};
 use super::{Collapse, Edge, Rules};
 use crate::mesh::Attributes;
-use crate::quadric::Quadric;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Rings with more faces are left to the final heap: the pairwise comparison of two rings in the
@@ -20,9 +19,8 @@ const MAX_DEGREE: usize = 64;
 /// A run of vertices, with the faces of the whole surface. See the [module](self).
 pub(crate) struct Tile<'a> {
     first: u32,
-    positions: &'a mut [Vec3],
+    points: &'a mut [Vec4],
     flags: &'a mut [u8],
-    errors: &'a mut [f32],
     merged: &'a mut [u32],
     normals: &'a mut [[f32; 3]],
     colors: &'a mut [[u8; 4]],
@@ -44,9 +42,8 @@ impl<'a> Tile<'a> {
     /// A tile of all vertices.
     #[expect(clippy::too_many_arguments, reason = "called once, by the surface, with all it has")]
     pub(crate) fn new(
-        positions: &'a mut [Vec3],
+        points: &'a mut [Vec4],
         flags: &'a mut [u8],
-        errors: &'a mut [f32],
         merged: &'a mut [u32],
         attributes: &'a mut Attributes,
         faces: &'a [Face],
@@ -55,9 +52,8 @@ impl<'a> Tile<'a> {
     ) -> Self {
         Self {
             first: 0,
-            positions,
+            points,
             flags,
-            errors,
             merged,
             normals: attributes.normals.as_deref_mut().unwrap_or_default(),
             colors: attributes.colors.as_deref_mut().unwrap_or_default(),
@@ -71,9 +67,8 @@ impl<'a> Tile<'a> {
     /// Two tiles, the second from vertex `cut` on.
     pub(crate) fn split(self, cut: usize) -> [Self; 2] {
         let middle = cut - self.first as usize;
-        let (positions, positions_after) = self.positions.split_at_mut(middle);
+        let (points, points_after) = self.points.split_at_mut(middle);
         let (flags, flags_after) = self.flags.split_at_mut(middle);
-        let (errors, errors_after) = self.errors.split_at_mut(middle);
         // What is not carried is empty on both sides.
         let (merged, merged_after) = self.merged.split_at_mut(middle.min(self.merged.len()));
         let (normals, normals_after) = self.normals.split_at_mut(middle.min(self.normals.len()));
@@ -84,9 +79,8 @@ impl<'a> Tile<'a> {
         [
             Self {
                 first: self.first,
-                positions,
+                points,
                 flags,
-                errors,
                 merged,
                 normals,
                 colors,
@@ -97,9 +91,8 @@ impl<'a> Tile<'a> {
             },
             Self {
                 first,
-                positions: positions_after,
+                points: points_after,
                 flags: flags_after,
-                errors: errors_after,
                 merged: merged_after,
                 normals: normals_after,
                 colors: colors_after,
@@ -113,7 +106,7 @@ impl<'a> Tile<'a> {
 
     /// The tile's vertices.
     pub(crate) fn vertices(&self) -> std::ops::Range<u32> {
-        self.first..self.first + self.positions.len() as u32
+        self.first..self.first + self.points.len() as u32
     }
 
     pub(crate) fn flags(&self, vertex: u32) -> u8 {
@@ -132,8 +125,8 @@ impl<'a> Tile<'a> {
     }
 
     #[inline(always)]
-    fn position(&self, vertex: u32) -> Option<Vec3> {
-        self.positions.get(vertex.wrapping_sub(self.first) as usize).copied()
+    fn position(&self, vertex: u32) -> Option<Vec3A> {
+        self.points.get(vertex.wrapping_sub(self.first) as usize).map(|&point| Vec3A::from_vec4(point))
     }
 
     #[inline(always)]
@@ -153,23 +146,22 @@ impl<'a> Tile<'a> {
         let (Some(origin), true) = (self.position(vertex), corners.len() <= MAX_DEGREE) else {
             return false;
         };
-        ring.begin(vertex, self.flags(vertex) & flag::BOUNDARY != 0, corners.len());
-        let mut quadric = Quadric::default();
-        for corner in corners {
-            let corner = corner.load(Relaxed);
-            if !super::surface::is_alive(&self.faces[(corner >> 2) as usize]) {
-                continue;
+        let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
+        ring.gather(vertex, boundary, corners.len(), |ring| {
+            for corner in corners {
+                let corner = corner.load(Relaxed);
+                if !is_alive(&self.faces[(corner >> 2) as usize]) {
+                    continue;
+                }
+                let (next, previous) = neighbours(self.faces, corner);
+                let (Some(to_next), Some(to_previous)) = (self.position(next), self.position(previous))
+                else {
+                    return false;
+                };
+                ring.push(next, previous, to_next - origin, to_previous - origin);
             }
-            let (next, previous) = neighbours(self.faces, corner);
-            let (Some(next_position), Some(previous_position)) =
-                (self.position(next), self.position(previous))
-            else {
-                return false;
-            };
-            ring.push(&mut quadric, next, previous, next_position - origin, previous_position - origin);
-        }
-        ring.finish(quadric);
-        true
+            true
+        })
     }
 
     /// Collapses `scratch.source`, which has been gathered and is unused, into `target`, if the
@@ -185,10 +177,9 @@ impl<'a> Tile<'a> {
         let edge = Edge {
             source: &scratch.source,
             target: &scratch.target,
-            source_position: self.positions[from],
-            target_position: self.positions[into],
+            source_point: self.points[from],
+            target_point: self.points[into],
             target_locked: self.flags[into] & flag::LOCKED != 0,
-            error: self.errors[from].max(self.errors[into]),
         };
         let collapse = edge.collapse(rules, &mut scratch.neighbours);
         if collapse.is_none() {
@@ -203,7 +194,7 @@ impl<'a> Tile<'a> {
         for corner in self.corners(source) {
             let corner = corner.load(Relaxed);
             let face = &self.faces[(corner >> 2) as usize];
-            if !super::surface::is_alive(face) {
+            if !is_alive(face) {
                 continue;
             }
             let (next, previous) = neighbours(self.faces, corner);
@@ -214,8 +205,7 @@ impl<'a> Tile<'a> {
                 face[(corner & 3) as usize].store(target, Relaxed);
             }
         }
-        self.positions[into] = collapse.position;
-        self.errors[into] = collapse.error;
+        self.points[into] = collapse.point;
         self.flags[into] |= self.flags[from] & flag::BOUNDARY | flag::USED;
         self.flags[from] |= flag::DEAD;
         if let Some(merged) = self.merged.get_mut(from) {

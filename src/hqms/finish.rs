@@ -11,13 +11,13 @@
 
 use super::goal::{Counts, Goal};
 use crate::collapse::queue::Queue;
-use crate::collapse::ring::{Ring, Spoke};
+use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, is_alive, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Edge, Rules};
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
-use glam::Vec3;
+use glam::Vec3A;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// Rings with more faces wait until their neighbours have gone: to update them at each collapse
@@ -80,7 +80,7 @@ struct Scratch {
 impl<'a> Finish<'a> {
     /// Takes over a compacted surface.
     pub(crate) fn new(surface: &'a mut Surface, rules: &'a Rules) -> Self {
-        let vertices = surface.positions.len();
+        let vertices = surface.points.len();
         let mut first = vec![NONE; vertices];
         let mut next = vec![NONE; 4 * surface.faces.len()];
         // Backwards, so that the lists are in face order.
@@ -175,15 +175,18 @@ impl<'a> Finish<'a> {
             let mix = |vertex: u32| (vertex ^ vertex >> 15).wrapping_mul(0x9E37_79B1);
             boundary = boundary.wrapping_add(mix(next)).wrapping_sub(mix(previous));
         }
-        ring.begin(vertex, boundary != 0, corners.len());
-        let position = |vertex: u32| self.surface.positions[vertex as usize];
-        let origin = position(vertex);
-        let mut quadric = Quadric::default();
-        for &corner in &*corners {
-            let (next, previous) = neighbours(&self.surface.faces, corner);
-            ring.push(&mut quadric, next, previous, position(next) - origin, position(previous) - origin);
-        }
-        ring.finish(quadric);
+        let origin = self.position(vertex);
+        ring.gather(vertex, boundary != 0, corners.len(), |ring| {
+            for &corner in &*corners {
+                let (next, previous) = neighbours(&self.surface.faces, corner);
+                ring.push(next, previous, self.position(next) - origin, self.position(previous) - origin);
+            }
+            true
+        });
+    }
+
+    fn position(&self, vertex: u32) -> Vec3A {
+        Vec3A::from_vec4(self.surface.points[vertex as usize])
     }
 
     /// Renews what is known about a vertex whose ring has changed; `false` if no face is left.
@@ -194,7 +197,7 @@ impl<'a> Finish<'a> {
         let flags = &mut self.surface.flags[vertex as usize];
         *flags = *flags & !flag::BOUNDARY | if ring.boundary { flag::BOUNDARY } else { 0 };
         self.quadrics[vertex as usize] = ring.quadric;
-        let alive = !ring.is_empty();
+        let alive = !ring.next().is_empty();
         self.scratch = scratch;
         alive
     }
@@ -223,7 +226,7 @@ impl<'a> Finish<'a> {
     /// The cost of the edge, the same from both of its ends to the last bit.
     fn cost(&self, a: u32, b: u32) -> f32 {
         let (a, b) = (a.min(b), a.max(b));
-        let edge = self.surface.positions[b as usize] - self.surface.positions[a as usize];
+        let edge = self.position(b) - self.position(a);
         let (of_a, of_b) = (&self.quadrics[a as usize], &self.quadrics[b as usize]);
         let cost = match (self.is_locked(a), self.is_locked(b)) {
             (false, false) => place(of_a, of_b, edge).cost,
@@ -317,14 +320,12 @@ impl<'a> Finish<'a> {
         let Scratch { source: source_ring, target: target_ring, source_corners, target_corners, neighbours } =
             scratch;
         let (from, into) = (source as usize, target as usize);
-        let errors = &self.surface.errors;
         let edge = Edge {
             source: source_ring,
             target: target_ring,
-            source_position: self.surface.positions[from],
-            target_position: self.surface.positions[into],
+            source_point: self.surface.points[from],
+            target_point: self.surface.points[into],
             target_locked: self.is_locked(target),
-            error: errors[from].max(errors[into]),
         };
         let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
         let mut doomed = Vec::new();
@@ -334,13 +335,13 @@ impl<'a> Finish<'a> {
                 None => return Outcome::Illegal,
             }
         }
-        let touches = |spoke: &&Spoke| spoke.next == target || spoke.previous == target;
-        let faces = source_ring.spokes().iter().filter(touches).count() + doomed.len();
+        let (after, before) = source_ring.occurrences(target);
+        let faces = (after + before) as usize + doomed.len();
         // The last collapse may take one face too many, not more.
         if matches!(goal, Goal::Faces(_)) && faces > left + 1 {
             return Outcome::Illegal;
         }
-        let loss = self.loss(&doomed, collapse.position, [source, target]);
+        let loss = self.loss(&doomed, Vec3A::from_vec4(collapse.point), [source, target]);
         if loss > price {
             return Outcome::Dearer(loss);
         }
@@ -354,12 +355,11 @@ impl<'a> Finish<'a> {
     /// What it costs that faces vanish: the sum over them of the squared distance to what is left,
     /// taken to be their edge away from the collapsed one. No quadric knows this: two faces that
     /// come to lie on each other are on the same plane, however far they reach.
-    fn loss(&self, doomed: &[u32], position: Vec3, collapsed: [u32; 2]) -> f32 {
+    fn loss(&self, doomed: &[u32], position: Vec3A, collapsed: [u32; 2]) -> f32 {
         let of_face = |&face: &u32| {
             let corners = self.surface.faces[face as usize].each_ref().map(|corner| corner.load(Relaxed));
-            let [a, b, c] = corners.map(|vertex| {
-                if collapsed.contains(&vertex) { position } else { self.surface.positions[vertex as usize] }
-            });
+            let [a, b, c] = corners
+                .map(|vertex| if collapsed.contains(&vertex) { position } else { self.position(vertex) });
             let longest =
                 (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             // The mean squared distance of a triangle's points from one of its edges is a sixth of
@@ -371,47 +371,46 @@ impl<'a> Finish<'a> {
 
     /// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
     /// the faces that would then lie on each other: both go if they face each other, one if not.
-    fn coincident(
+    fn coincident<'r>(
         &self,
-        source: &Ring,
-        target: &Ring,
-        source_corners: &[u32],
-        target_corners: &[u32],
+        source: &'r Ring,
+        target: &'r Ring,
+        source_corners: &'r [u32],
+        target_corners: &'r [u32],
     ) -> Option<Vec<u32>> {
+        let faces = |ring: &'r Ring, corners: &'r [u32]| {
+            let names = ring.next().iter().copied().zip(ring.previous().iter().copied());
+            names.zip(corners.iter().map(|corner| corner >> 2))
+        };
         let mut doomed = Vec::new();
-        for (of_source, corner) in source.spokes().iter().zip(source_corners) {
-            for (of_target, other) in target.spokes().iter().zip(target_corners) {
-                let same = of_source.next == of_target.next && of_source.previous == of_target.previous;
-                let opposite = of_source.next == of_target.previous && of_source.previous == of_target.next;
-                if same || opposite {
-                    doomed.push(corner >> 2);
+        for ((next, previous), face) in faces(source, source_corners) {
+            for (names, other) in faces(target, target_corners) {
+                if names == (next, previous) || names == (previous, next) {
+                    doomed.push(face);
                 }
-                if opposite {
-                    doomed.push(other >> 2);
+                if names == (previous, next) {
+                    doomed.push(other);
                 }
             }
         }
         doomed.sort_unstable();
         doomed.dedup();
-        let count = |ring: &Ring, corners: &[u32], vertex: u32, avoid: u32| {
-            let faces = ring.spokes().iter().zip(corners);
-            faces
-                .filter(|(spoke, corner)| {
-                    (spoke.next == vertex || spoke.previous == vertex)
-                        && spoke.next != avoid
-                        && spoke.previous != avoid
-                        && doomed.binary_search(&(*corner >> 2)).is_err()
-                })
-                .count()
+        let count = |ring: &'r Ring, corners: &'r [u32], vertex: u32, avoid: u32| {
+            let left = faces(ring, corners).filter(|((next, previous), face)| {
+                (*next == vertex || *previous == vertex)
+                    && *next != avoid
+                    && *previous != avoid
+                    && doomed.binary_search(face).is_err()
+            });
+            left.count()
         };
         let overfull = |vertex: u32| {
             let of_source = count(source, source_corners, vertex, target.vertex);
             let of_target = count(target, target_corners, vertex, source.vertex);
             of_source > 0 && of_target > 0 && of_source + of_target > 2
         };
-        let manifold = source.spokes().iter().all(|spoke| {
-            [spoke.next, spoke.previous].iter().all(|&vertex| vertex == target.vertex || !overfull(vertex))
-        });
+        let around = source.next().iter().chain(source.previous());
+        let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));
         manifold.then_some(doomed)
     }
 
@@ -437,8 +436,7 @@ impl<'a> Finish<'a> {
         }
         self.first[from] = NONE;
         let surface = &mut *self.surface;
-        surface.positions[into] = collapse.position;
-        surface.errors[into] = collapse.error;
+        surface.points[into] = collapse.point;
         surface.flags[from] |= flag::DEAD;
         if let Some(merged) = surface.merged.get_mut(from) {
             *merged = target;

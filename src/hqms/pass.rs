@@ -57,7 +57,7 @@ impl Threshold {
         workers: &Workers,
         report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
     ) -> Result<Counts, Cancelled> {
-        let vertices = surface.positions.len();
+        let vertices = surface.points.len();
         // Far from the goal a coarser order does: what is taken too early here would be taken
         // later anyway.
         let far = goal.ratio(counts).is_some_and(|ratio| ratio > 4.0);
@@ -104,7 +104,7 @@ impl Threshold {
 /// or could not in the last pass, are [`UNUSABLE`]: they would pull the threshold down to what is
 /// never executed.
 fn sample(surface: &mut Surface, many: bool, workers: &Workers) -> Vec<(u32, u32)> {
-    let vertices = surface.positions.len();
+    let vertices = surface.points.len();
     let count = vertices.min(if many { 16384 } else { 4096 });
     let tile = &surface.whole();
     let blocks: Vec<_> = (0..count).step_by(1024).map(|first| first..(first + 1024).min(count)).collect();

@@ -86,7 +86,7 @@ impl<'a> Run<'a> {
                 checkpoint = Some((self.surface.snapshot(), self.counts));
             }
             let removed = self.pass(goal, &rules, &mut report)?;
-            stalled = (removed.vertices as f32) < STALLED * self.surface.positions.len() as f32;
+            stalled = (removed.vertices as f32) < STALLED * self.surface.points.len() as f32;
             self.surface.compact(&self.workers);
             self.counts.remove(removed);
             self.passes += 1;
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
                 replacement::pass(surface, records, counts, goal, rules, &mut report)
             }
             Selection::SampledThreshold => {
-                let share = goal.collapses(counts) as f32 / surface.positions.len() as f32;
+                let share = goal.collapses(counts) as f32 / surface.points.len() as f32;
                 if share < RANKED_SHARE {
                     Ok(ranked_pass(surface, counts, goal, rules, workers))
                 } else {
@@ -186,7 +186,8 @@ impl<'a> Run<'a> {
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
         let (mesh, origins) = self.surface.to_mesh()?;
-        let error = self.surface.errors.iter().copied().fold(0.0, f32::max) / self.surface.scale();
+        let error =
+            self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max) / self.surface.scale();
         let topology_changed = self.topology_changed;
         Ok(Simplified { mesh, stopped_by, error, topology_changed, origins, passes: self.passes })
     }
