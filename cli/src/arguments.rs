@@ -142,6 +142,10 @@ pub(crate) struct EngineArguments {
     /// Keep the vertices of the border where they are, bit for bit.
     #[arg(long)]
     lock_boundary: bool,
+    /// Let the two sides of a seam (vertices at one place with different attributes) part, like
+    /// borders; they are kept as they are otherwise.
+    #[arg(long)]
+    open_seams: bool,
     /// Keep all holes, handles and components, even if the target is missed.
     #[arg(long, conflicts_with = "allow_topology")]
     keep_topology: bool,
@@ -183,6 +187,7 @@ impl EngineArguments {
             },
             topology: if self.keep_topology { Topology::Keep } else { Topology::RelaxIfStuck },
             lock_boundary: self.lock_boundary,
+            keep_seams: !self.open_seams,
             threads: self.threads,
             ..Options::new(target)
         }

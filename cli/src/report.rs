@@ -29,6 +29,8 @@ pub(crate) struct SimplifyReport {
     /// Threads asked for, or all of the machine's where none were.
     pub(crate) threads: usize,
     pub(crate) stopped_by: &'static str,
+    /// Vertices that were not to move: borders and seams.
+    pub(crate) locked: usize,
     pub(crate) topology_changed: bool,
     /// Estimated, in units of the positions.
     pub(crate) error: f32,
@@ -82,6 +84,13 @@ pub(crate) fn warn_if_stuck(name: &str, result: &Simplified) {
              change the topology, fold a face over, or move a locked vertex",
             result.mesh.triangles().len()
         );
+        if result.locked > 0 {
+            eprintln!(
+                "decimesh: {} vertices of the input were locked, as borders or as seams between \
+                 attributes; --weld makes seams one surface, --open-seams lets them part",
+                grouped(result.locked)
+            );
+        }
     }
 }
 

@@ -49,6 +49,7 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         peak_bytes,
         threads: threads(options.threads),
         stopped_by: report::stopped_by(result.stopped_by),
+        locked: result.locked,
         topology_changed: result.topology_changed,
         error: result.error,
         passes: result.passes,
@@ -98,8 +99,8 @@ mod tests {
     use super::*;
 
     fn simplified(mesh: Mesh, topology_changed: bool) -> Simplified {
-        let (stopped_by, error, origins, passes) = (StoppedBy::Target, 0.0, None, 1);
-        Simplified { mesh, stopped_by, error, topology_changed, origins, passes }
+        let (stopped_by, error, locked, origins, passes) = (StoppedBy::Target, 0.0, 0, None, 1);
+        Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes }
     }
 
     fn mesh(triangles: &[[u32; 3]]) -> Mesh {

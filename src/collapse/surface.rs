@@ -243,16 +243,7 @@ impl Surface {
     /// Drops dead vertices and faces, keeping the order of the others, and ends the pass: no
     /// vertex is used any more. The rings are lost.
     pub(crate) fn compact(&mut self, workers: &Workers) {
-        let Self {
-            points,
-            faces,
-            flags,
-            attributes,
-            merged,
-            origins,
-            offsets: map,
-            ..
-        } = self;
+        let Self { points, faces, flags, attributes, merged, origins, offsets: map, .. } = self;
         map.clear();
         map.reserve(points.len());
         let mut kept = 0;

@@ -6,7 +6,7 @@
 //! tiles can work side by side without locks, and what each does depends on nothing the others do.
 
 use super::ring::Ring;
-use super::surface::{Face, NONE, flag, is_alive, neighbours};
+use super::surface::{Face, flag, is_alive, neighbours};
 use super::{Collapse, Edge, Rules};
 use crate::mesh::Attributes;
 use glam::{Vec2, Vec3, Vec3A, Vec4};
@@ -213,15 +213,6 @@ impl<'a> Tile<'a> {
         }
         blend_attributes(self.normals, self.colors, self.uvs, [from, into], collapse.along);
         removed
-    }
-
-    /// Marks a vertex without faces as gone.
-    pub(crate) fn bury(&mut self, vertex: u32) {
-        let vertex = (vertex - self.first) as usize;
-        self.flags[vertex] |= flag::DEAD;
-        if let Some(merged) = self.merged.get_mut(vertex) {
-            *merged = NONE;
-        }
     }
 }
 

@@ -65,6 +65,8 @@ pub(crate) struct Finish<'a> {
     /// The collapse in which a vertex was last among those whose quadrics changed.
     changed: Vec<u32>,
     stamp: u32,
+    /// Vertices that had lost all faces before.
+    orphans: usize,
     scratch: Scratch,
 }
 
@@ -100,10 +102,14 @@ impl<'a> Finish<'a> {
             queue: Queue::new(vertices),
             changed: vec![0; vertices],
             stamp: 0,
+            orphans: 0,
             scratch: Scratch::default(),
         };
         for vertex in 0..vertices as u32 {
-            finish.refresh(vertex);
+            if !finish.refresh(vertex) {
+                finish.bury(vertex);
+                finish.orphans += 1;
+            }
         }
         let mut around = Vec::new();
         for vertex in 0..vertices as u32 {
@@ -121,7 +127,7 @@ impl<'a> Finish<'a> {
         goal: Goal,
         report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
     ) -> Result<Counts, Cancelled> {
-        let mut removed = Counts::default();
+        let mut removed = Counts { faces: 0, vertices: self.orphans };
         let mut collapses = 0;
         let mut around = Vec::new();
         while goal.measure(removed) < goal.excess(counts)

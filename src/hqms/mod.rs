@@ -58,6 +58,10 @@ pub struct Options {
     pub topology: Topology,
     /// Vertices of the border stay, bit for bit.
     pub lock_boundary: bool,
+    /// Where the mesh has attributes, vertices at one place stay, bit for bit: seams of textures and
+    /// creases of normals then open no crack. Without this the sides of a seam are borders, and part.
+    /// A mesh that is all seams, such as a faceted one, gets stuck with it: weld it.
+    pub keep_seams: bool,
     /// Indices of vertices that stay, bit for bit.
     pub locked: Vec<u32>,
     /// Threads to use; 0: all that the machine has. The result does not depend on it.
@@ -74,6 +78,7 @@ impl Options {
             selection: Selection::default(),
             topology: Topology::default(),
             lock_boundary: false,
+            keep_seams: true,
             locked: Vec::new(),
             threads: 0,
             track_origins: false,
@@ -102,6 +107,8 @@ pub struct Simplified {
     pub stopped_by: StoppedBy,
     /// Estimated largest distance from the input, in units of the positions.
     pub error: f32,
+    /// How many vertices of the input were locked: by index, as borders, or as seams.
+    pub locked: usize,
     /// Whether holes, handles or components had to be given up to meet the target.
     pub topology_changed: bool,
     /// For each input vertex the output vertex it went into, `u32::MAX` where it vanished.

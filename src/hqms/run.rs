@@ -6,8 +6,9 @@ use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
 use super::{Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, replacement};
 use crate::collapse::Rules;
-use crate::collapse::surface::Surface;
-use crate::mesh::Mesh;
+use crate::collapse::surface::{Surface, flag};
+use crate::mesh::weld::first_equal;
+use crate::mesh::{Attributes, Mesh};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
 
@@ -36,6 +37,7 @@ pub(crate) struct Run<'a> {
     counts: Counts,
     workers: Workers,
     threshold: Threshold,
+    locked: usize,
     passes: usize,
     topology_changed: bool,
 }
@@ -45,11 +47,16 @@ impl<'a> Run<'a> {
         check(mesh, options)?;
         let rank = rank(mesh, TILE / 8);
         let workers = Workers::new(options.threads);
-        let mut surface = Surface::new(mesh, rank.as_deref(), &options.locked, options.track_origins);
+        let mut locked = options.locked.clone();
+        if options.keep_seams && *mesh.attributes() != Attributes::default() {
+            locked.extend(seams(mesh));
+        }
+        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, options.track_origins);
         drop(rank);
         surface.build_rings(&workers);
         let unreferenced = surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: mesh.positions().len() - unreferenced };
+        let locked = surface.flags.iter().filter(|flags| *flags & flag::LOCKED != 0).count();
         Ok(Self {
             options,
             input: mesh,
@@ -57,6 +64,7 @@ impl<'a> Run<'a> {
             counts,
             workers,
             threshold: Threshold::new(),
+            locked,
             passes: 0,
             topology_changed: false,
         })
@@ -188,9 +196,22 @@ impl<'a> Run<'a> {
         let (mesh, origins) = self.surface.to_mesh()?;
         let error =
             self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max) / self.surface.scale();
-        let topology_changed = self.topology_changed;
-        Ok(Simplified { mesh, stopped_by, error, topology_changed, origins, passes: self.passes })
+        let Self { locked, topology_changed, passes, .. } = *self;
+        Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes })
     }
+}
+
+/// The vertices that are not alone at their place.
+fn seams(mesh: &Mesh) -> Vec<u32> {
+    let first = first_equal(mesh.positions());
+    let mut shared = vec![false; first.len()];
+    for (vertex, &first) in first.iter().enumerate() {
+        if first as usize != vertex {
+            shared[vertex] = true;
+            shared[first as usize] = true;
+        }
+    }
+    (0..).zip(shared).filter(|(_, shared)| *shared).map(|(vertex, _)| vertex).collect()
 }
 
 /// How far `now` is from `start` to the goal.

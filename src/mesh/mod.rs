@@ -12,7 +12,7 @@ pub mod shapes;
 mod statistics;
 pub mod topology;
 mod verify;
-mod weld;
+pub(crate) mod weld;
 
 pub use rings::{Corner, Rings};
 pub use statistics::{Flaws, Statistics};

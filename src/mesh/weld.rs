@@ -90,7 +90,7 @@ fn select<T: Copy>(values: &[T], kept: &[usize]) -> Vec<T> {
 /// For each position the index of the first one equal to it.
 ///
 /// Sorted, not hashed: no input is slow, and a record takes 16 bytes.
-pub(super) fn first_equal(positions: &[[f32; 3]]) -> Vec<u32> {
+pub(crate) fn first_equal(positions: &[[f32; 3]]) -> Vec<u32> {
     let mut records: Vec<([u32; 3], u32)> = positions
         .par_iter()
         .zip(0..positions.len() as u32)
