@@ -11,7 +11,7 @@ pub(crate) mod tile;
 
 use crate::quadric::place;
 use glam::{Vec3A, Vec4};
-use ring::{Ring, Spoke};
+use ring::Ring;
 
 /// What a collapse must not do.
 #[derive(Debug, Clone, Copy)]
@@ -46,8 +46,9 @@ pub(crate) struct Collapse {
 /// The cosine, squared, of the largest angle that a face may turn by at one collapse (84 degrees).
 const TURN: f32 = 0.01;
 
-/// A face whose height is below this share of its edges has no direction to keep.
-const SLIVER: f32 = 1e-5;
+/// A face whose corner is nearer to the opposite edge's line than this share of the way it moved is
+/// a line: below that, single precision does not know on which side it lies.
+const LINE: f32 = 1e-5;
 
 impl Edge<'_> {
     /// The collapse of this edge, if the rules allow it. `neighbours` is room to work in.
@@ -113,32 +114,29 @@ fn keeps_borders(source: &Ring, target: &Ring, shared: usize, neighbours: &mut [
 }
 
 /// Moves the ring's vertex by `offset` and looks at each face that survives a collapse with
-/// `other`: `None` if one turns by too much, else the largest squared distance of the new place
-/// from the planes of the ring.
+/// `other`: `None` if one turns by too much or becomes a line, else the largest squared distance of
+/// the new place from the planes of the ring.
+///
+/// Faces that have no area before have no side to be turned from. They are common in real data, and
+/// would block every collapse around them.
 #[inline(always)]
 fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
     let mut distance_squared = 0f32;
     let mut folded = false;
+    let narrowest = LINE * LINE * offset.length_squared();
     for ((&next, &previous), spoke) in ring.next().iter().zip(ring.previous()).zip(ring.spokes()) {
+        let opposite = spoke.to_next - spoke.to_previous;
         let before = spoke.cross;
-        let after = before + offset.cross(spoke.to_next - spoke.to_previous);
+        let after = before + offset.cross(opposite);
         let area_before = before.length_squared();
         let area_after = after.length_squared();
         let cosine = before.dot(after);
         let turns = (cosine <= 0.0) | (cosine * cosine < TURN * area_before * area_after);
+        let narrow = area_after <= narrowest * opposite.length_squared();
         let survives = (next != other) & (previous != other);
-        if survives & turns && !is_sliver(spoke, area_before) {
-            folded = true;
-        }
+        folded |= survives & (turns | narrow) & (area_before > 0.0);
         let height = before.dot(offset);
         distance_squared = distance_squared.max(height * height / (area_before + f32::MIN_POSITIVE));
     }
     (!folded).then_some(distance_squared)
-}
-
-/// Whether a face (its doubled area squared is `area`) is a line or a point: such faces are common
-/// in real data and would block every collapse around them.
-#[inline(always)]
-fn is_sliver(spoke: &Spoke, area: f32) -> bool {
-    area <= (SLIVER * SLIVER) * spoke.to_next.length_squared() * spoke.to_previous.length_squared()
 }

@@ -42,7 +42,7 @@ impl Candidate {
 
 /// What became of an attempt.
 enum Outcome {
-    Done(Counts),
+    Done,
     /// The rules do not allow it.
     Illegal,
     /// It costs this, which is more than it was thought to.
@@ -65,8 +65,7 @@ pub(crate) struct Finish<'a> {
     /// The collapse in which a vertex was last among those whose quadrics changed.
     changed: Vec<u32>,
     stamp: u32,
-    /// Vertices that had lost all faces before.
-    orphans: usize,
+    counts: Counts,
     scratch: Scratch,
 }
 
@@ -80,8 +79,8 @@ struct Scratch {
 }
 
 impl<'a> Finish<'a> {
-    /// Takes over a compacted surface.
-    pub(crate) fn new(surface: &'a mut Surface, rules: &'a Rules) -> Self {
+    /// Takes over a compacted surface, which has `counts`.
+    pub(crate) fn new(surface: &'a mut Surface, counts: Counts, rules: &'a Rules) -> Self {
         let vertices = surface.points.len();
         let mut first = vec![NONE; vertices];
         let mut next = vec![NONE; 4 * surface.faces.len()];
@@ -102,13 +101,12 @@ impl<'a> Finish<'a> {
             queue: Queue::new(vertices),
             changed: vec![0; vertices],
             stamp: 0,
-            orphans: 0,
+            counts,
             scratch: Scratch::default(),
         };
         for vertex in 0..vertices as u32 {
             if !finish.refresh(vertex) {
                 finish.bury(vertex);
-                finish.orphans += 1;
             }
         }
         let mut around = Vec::new();
@@ -119,28 +117,24 @@ impl<'a> Finish<'a> {
         finish
     }
 
-    /// Collapses edges until the goal is met or nothing is left that the rules allow. The surface
-    /// is to be compacted afterwards.
+    /// Collapses edges until the goal is met or nothing is left that the rules allow; what the
+    /// surface then has. It is to be compacted afterwards.
     pub(crate) fn run(
         mut self,
-        counts: Counts,
         goal: Goal,
         report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
     ) -> Result<Counts, Cancelled> {
-        let mut removed = Counts { faces: 0, vertices: self.orphans };
         let mut collapses = 0;
         let mut around = Vec::new();
-        while goal.measure(removed) < goal.excess(counts)
+        while goal.excess(self.counts) > 0
             && let Some((_, vertex)) = self.queue.first()
         {
-            let left = goal.excess(counts) - goal.measure(removed);
             let candidate = self.candidates[vertex as usize];
-            match self.try_collapse(vertex, candidate.partner, goal, left) {
-                Outcome::Done(of_collapse) => {
-                    removed.add(of_collapse);
+            match self.try_collapse(vertex, candidate.partner, goal) {
+                Outcome::Done => {
                     collapses += 1;
                     if collapses % BATCH == 0 {
-                        report(removed)?;
+                        report(self.counts)?;
                     }
                 }
                 Outcome::Illegal => {
@@ -155,7 +149,7 @@ impl<'a> Finish<'a> {
                 }
             }
         }
-        Ok(removed)
+        Ok(self.counts)
     }
 
     /// Gathers the ring of `vertex`, and the corners it consists of. Faces that have died leave the
@@ -277,42 +271,46 @@ impl<'a> Finish<'a> {
         self.queue.set(vertex, candidate.cost);
     }
 
-    /// Collapses the edge, if the rules allow it and no more than `left` goes (one triangle more
-    /// where it must be two), and brings all around up to date.
-    fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal, left: usize) -> Outcome {
-        let (source, target) = if self.is_locked(vertex) { (partner, vertex) } else { (vertex, partner) };
-        let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(source, &mut scratch.source, &mut scratch.source_corners);
-        self.gather(target, &mut scratch.target, &mut scratch.target_corners);
+    /// Collapses the edge, if the rules allow it and the goal is not overshot (but for one triangle,
+    /// where there must be two), and brings all around up to date.
+    fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal) -> Outcome {
+        let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
-        let outcome = self.collapse_gathered([source, target], price, goal, left, &mut scratch);
-        let Outcome::Done(mut removed) = outcome else {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather(ends[0], &mut scratch.source, &mut scratch.source_corners);
+        self.gather(ends[1], &mut scratch.target, &mut scratch.target_corners);
+        let outcome = self.collapse_gathered(ends, price, goal, &mut scratch);
+        let Outcome::Done = outcome else {
             self.scratch = scratch;
             return outcome;
         };
-        scratch.source.neighbours(&mut scratch.neighbours[0]);
-        scratch.target.neighbours(&mut scratch.neighbours[1]);
-        let [mut around, other] = std::mem::take(&mut scratch.neighbours);
-        around.extend(&other);
-        around.retain(|&vertex| vertex != source);
-        around.push(target);
+        let [around, other] = &mut scratch.neighbours;
+        scratch.source.neighbours(around);
+        scratch.target.neighbours(other);
+        around.extend(&*other);
+        around.retain(|&vertex| vertex != ends[0]);
+        around.push(ends[1]);
         around.sort_unstable();
         around.dedup();
-        scratch.neighbours = [Vec::new(), other];
+        let mut around = std::mem::take(around);
         self.scratch = scratch;
 
-        self.set(source, IMPOSSIBLE);
+        self.set(ends[0], IMPOSSIBLE);
+        if self.rules.any_topology {
+            for index in 0..around.len() {
+                self.split_fans(around[index], &mut around);
+            }
+        }
         around.retain(|&vertex| {
             let alive = self.refresh(vertex);
             if !alive {
-                removed.vertices += 1;
                 self.bury(vertex);
             }
             alive
         });
         self.update(&around);
         self.scratch.neighbours[0] = around;
-        Outcome::Done(removed)
+        Outcome::Done
     }
 
     fn collapse_gathered(
@@ -320,31 +318,28 @@ impl<'a> Finish<'a> {
         [source, target]: [u32; 2],
         price: f32,
         goal: Goal,
-        left: usize,
         scratch: &mut Scratch,
     ) -> Outcome {
         let Scratch { source: source_ring, target: target_ring, source_corners, target_corners, neighbours } =
             scratch;
-        let (from, into) = (source as usize, target as usize);
         let edge = Edge {
             source: source_ring,
             target: target_ring,
-            source_point: self.surface.points[from],
-            target_point: self.surface.points[into],
+            source_point: self.surface.points[source as usize],
+            target_point: self.surface.points[target as usize],
             target_locked: self.is_locked(target),
         };
         let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
         let mut doomed = Vec::new();
         if self.rules.any_topology {
-            match self.coincident(source_ring, target_ring, source_corners, target_corners) {
+            match coincident(source_ring, target_ring, source_corners, target_corners) {
                 Some(faces) => doomed = faces,
                 None => return Outcome::Illegal,
             }
         }
         let (after, before) = source_ring.occurrences(target);
         let faces = (after + before) as usize + doomed.len();
-        // The last collapse may take one face too many, not more.
-        if matches!(goal, Goal::Faces(_)) && faces > left + 1 {
+        if matches!(goal, Goal::Faces(_)) && faces > goal.excess(self.counts) + 1 {
             return Outcome::Illegal;
         }
         let loss = self.loss(&doomed, Vec3A::from_vec4(collapse.point), [source, target]);
@@ -355,7 +350,8 @@ impl<'a> Finish<'a> {
             self.kill(face);
         }
         self.execute(source, target, &collapse, source_corners);
-        Outcome::Done(Counts { faces, vertices: 1 })
+        self.counts.remove(Counts { faces, vertices: 1 });
+        Outcome::Done
     }
 
     /// What it costs that faces vanish: the sum over them of the squared distance to what is left,
@@ -373,51 +369,6 @@ impl<'a> Finish<'a> {
             (b - a).cross(c - a).length() * longest / 12.0
         };
         doomed.iter().map(of_face).sum()
-    }
-
-    /// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
-    /// the faces that would then lie on each other: both go if they face each other, one if not.
-    fn coincident<'r>(
-        &self,
-        source: &'r Ring,
-        target: &'r Ring,
-        source_corners: &'r [u32],
-        target_corners: &'r [u32],
-    ) -> Option<Vec<u32>> {
-        let faces = |ring: &'r Ring, corners: &'r [u32]| {
-            let names = ring.next().iter().copied().zip(ring.previous().iter().copied());
-            names.zip(corners.iter().map(|corner| corner >> 2))
-        };
-        let mut doomed = Vec::new();
-        for ((next, previous), face) in faces(source, source_corners) {
-            for (names, other) in faces(target, target_corners) {
-                if names == (next, previous) || names == (previous, next) {
-                    doomed.push(face);
-                }
-                if names == (previous, next) {
-                    doomed.push(other);
-                }
-            }
-        }
-        doomed.sort_unstable();
-        doomed.dedup();
-        let count = |ring: &'r Ring, corners: &'r [u32], vertex: u32, avoid: u32| {
-            let left = faces(ring, corners).filter(|((next, previous), face)| {
-                (*next == vertex || *previous == vertex)
-                    && *next != avoid
-                    && *previous != avoid
-                    && doomed.binary_search(face).is_err()
-            });
-            left.count()
-        };
-        let overfull = |vertex: u32| {
-            let of_source = count(source, source_corners, vertex, target.vertex);
-            let of_target = count(target, target_corners, vertex, source.vertex);
-            of_source > 0 && of_target > 0 && of_source + of_target > 2
-        };
-        let around = source.next().iter().chain(source.previous());
-        let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));
-        manifold.then_some(doomed)
     }
 
     fn kill(&mut self, face: u32) {
@@ -457,7 +408,84 @@ impl<'a> Finish<'a> {
         );
     }
 
+    /// Gives each fan of faces around `vertex` but the first a vertex of its own: a collapse that
+    /// closes a hole or joins two borders leaves vertices behind at which surfaces only touch. The
+    /// new vertices are added to `around`.
+    fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
+        let names: Vec<[u32; 2]> =
+            scratch.source.next().iter().zip(scratch.source.previous()).map(|(&a, &b)| [a, b]).collect();
+        let corners = std::mem::take(&mut scratch.source_corners);
+        self.scratch = scratch;
+        let known = around.len();
+        let mut left: Vec<usize> = (0..names.len()).collect();
+        let mut is_first = true;
+        while let Some(start) = left.pop() {
+            let mut fan = vec![start];
+            let mut reached = 0;
+            while reached < fan.len() {
+                let [next, previous] = names[fan[reached]];
+                reached += 1;
+                left.retain(|&other| {
+                    let adjacent = names[other].contains(&next) || names[other].contains(&previous);
+                    if adjacent {
+                        fan.push(other);
+                    }
+                    !adjacent
+                });
+            }
+            if !std::mem::take(&mut is_first) {
+                fan.sort_unstable();
+                let copy = self.copy_vertex(vertex);
+                for &index in fan.iter().rev() {
+                    let corner = corners[index];
+                    self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].store(copy, Relaxed);
+                    self.next[corner as usize] = std::mem::replace(&mut self.first[copy as usize], corner);
+                }
+                around.push(copy);
+            }
+        }
+        if around.len() > known {
+            let own = |&&corner: &&u32| {
+                self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].load(Relaxed) == vertex
+            };
+            let own: Vec<u32> = corners.iter().filter(own).copied().collect();
+            self.first[vertex as usize] = NONE;
+            for &corner in own.iter().rev() {
+                self.next[corner as usize] = std::mem::replace(&mut self.first[vertex as usize], corner);
+            }
+        }
+        self.scratch.source_corners = corners;
+    }
+
+    /// A new vertex where `vertex` is, without faces.
+    fn copy_vertex(&mut self, vertex: u32) -> u32 {
+        fn copy<T: Copy>(values: &mut Vec<T>, index: usize) {
+            values.push(values[index]);
+        }
+        let index = vertex as usize;
+        let name = self.first.len() as u32;
+        let surface = &mut *self.surface;
+        copy(&mut surface.points, index);
+        copy(&mut surface.flags, index);
+        surface.attributes.normals.iter_mut().for_each(|normals| copy(normals, index));
+        surface.attributes.colors.iter_mut().for_each(|colors| copy(colors, index));
+        surface.attributes.uvs.iter_mut().for_each(|uvs| copy(uvs, index));
+        if !surface.merged.is_empty() {
+            surface.merged.push(name);
+        }
+        self.first.push(NONE);
+        self.quadrics.push(Quadric::default());
+        self.candidates.push(IMPOSSIBLE);
+        self.changed.push(0);
+        self.counts.vertices += 1;
+        name
+    }
+
+    /// Takes a vertex without faces off the surface.
     fn bury(&mut self, vertex: u32) {
+        self.counts.vertices -= 1;
         self.surface.flags[vertex as usize] |= flag::DEAD;
         if let Some(merged) = self.surface.merged.get_mut(vertex as usize) {
             *merged = NONE;
@@ -496,4 +524,48 @@ impl<'a> Finish<'a> {
             }
         }
     }
+}
+
+/// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
+/// the faces that would then lie on each other: both go if they face each other, one if not.
+fn coincident<'r>(
+    source: &'r Ring,
+    target: &'r Ring,
+    source_corners: &'r [u32],
+    target_corners: &'r [u32],
+) -> Option<Vec<u32>> {
+    let faces = |ring: &'r Ring, corners: &'r [u32]| {
+        let names = ring.next().iter().copied().zip(ring.previous().iter().copied());
+        names.zip(corners.iter().map(|corner| corner >> 2))
+    };
+    let mut doomed = Vec::new();
+    for ((next, previous), face) in faces(source, source_corners) {
+        for (names, other) in faces(target, target_corners) {
+            if names == (next, previous) || names == (previous, next) {
+                doomed.push(face);
+            }
+            if names == (previous, next) {
+                doomed.push(other);
+            }
+        }
+    }
+    doomed.sort_unstable();
+    doomed.dedup();
+    let count = |ring: &'r Ring, corners: &'r [u32], vertex: u32, avoid: u32| {
+        let left = faces(ring, corners).filter(|((next, previous), face)| {
+            (*next == vertex || *previous == vertex)
+                && *next != avoid
+                && *previous != avoid
+                && doomed.binary_search(face).is_err()
+        });
+        left.count()
+    };
+    let overfull = |vertex: u32| {
+        let of_source = count(source, source_corners, vertex, target.vertex);
+        let of_target = count(target, target_corners, vertex, source.vertex);
+        of_source > 0 && of_target > 0 && of_source + of_target > 2
+    };
+    let around = source.next().iter().chain(source.previous());
+    let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));
+    manifold.then_some(doomed)
 }

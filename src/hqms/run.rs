@@ -173,15 +173,8 @@ impl<'a> Run<'a> {
         rules: &Rules,
         report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
     ) -> Result<(), Cancelled> {
-        let counts = self.counts;
-        let mut report = |removed| {
-            let mut now = counts;
-            now.remove(removed);
-            report(now)
-        };
-        let removed = Finish::new(&mut self.surface, rules).run(counts, goal, &mut report)?;
+        self.counts = Finish::new(&mut self.surface, self.counts, rules).run(goal, report)?;
         self.surface.compact(&self.workers);
-        self.counts.remove(removed);
         self.passes += 1;
         Ok(())
     }
