@@ -147,3 +147,6 @@ fn fold(ring: &Ring, other: u32, offset: Vec3) -> Option<f32> {
 fn is_sliver(spoke: &Spoke, area: f32) -> bool {
     area <= (SLIVER * SLIVER) * spoke.to_next.length_squared() * spoke.to_previous.length_squared()
 }
+
+#[cfg(test)]
+mod tests;

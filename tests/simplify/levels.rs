@@ -9,7 +9,7 @@ use crate::meshes::attributed;
 
 #[test]
 fn levels_are_exact_and_ever_coarser() {
-    let ratios = [1.0, 0.7, 0.5, 0.499, 0.2, 0.05, 0.05, 0.01, 0.003];
+    let ratios = [1.0, 0.7, 0.5, 0.499, 0.2, 0.05, 0.05, 0.02, 0.01];
     let targets = ratios.map(Target::Ratio);
     for mesh in [shapes::bumpy_sphere(50, 3), attributed(shapes::statue(20_000), 3), shapes::torus(60, 40)] {
         for selection in [Selection::SampledThreshold, Selection::ReplacementSelection { records: 15 }] {
