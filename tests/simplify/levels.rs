@@ -92,5 +92,6 @@ fn relaxed_levels() {
     for (level, &target) in levels.iter().zip(&targets) {
         check(&mesh, &Options { target, ..options.clone() }, level);
     }
-    assert!(!levels[0].topology_changed && levels[1].topology_changed && levels[3].topology_changed);
+    let changed: Vec<bool> = levels.iter().map(|level| level.topology_changed).collect();
+    assert!(!changed[0] && changed.is_sorted(), "{changed:?}");
 }
