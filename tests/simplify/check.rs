@@ -9,18 +9,18 @@ use decimesh::{Mesh, Options, Simplified, StoppedBy, Target, Topology};
 const OVERSHOOT: f64 = 0.5;
 
 /// Whether a triangle names three vertices.
-pub fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
+pub(crate) fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
     a != b && b != c && c != a
 }
 
 /// The triangles that name three vertices, and the vertices they name.
-pub fn clean_counts(mesh: &Mesh) -> (usize, usize) {
+pub(crate) fn clean_counts(mesh: &Mesh) -> (usize, usize) {
     let faces = || mesh.triangles().iter().filter(|triangle| is_face(triangle));
     (faces().count(), faces().flatten().collect::<BTreeSet<_>>().len())
 }
 
 /// The vertices of edges that have not as many faces in one direction as in the other.
-pub fn boundary(mesh: &Mesh) -> BTreeSet<u32> {
+pub(crate) fn boundary(mesh: &Mesh) -> BTreeSet<u32> {
     let mut edges: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();
     for triangle in mesh.triangles().iter().filter(|triangle| is_face(triangle)) {
         for corner in 0..3 {
@@ -36,7 +36,7 @@ fn bits(position: [f32; 3]) -> [u32; 3] {
 }
 
 /// Panics, and says what is wrong, unless `result` keeps what the options promise.
-pub fn check(input: &Mesh, options: &Options, result: &Simplified) {
+pub(crate) fn check(input: &Mesh, options: &Options, result: &Simplified) {
     match verify(input, &result.mesh, !result.topology_changed) {
         Ok(()) => {}
         // An edge with three faces may go on as one with two that disagree.
@@ -54,7 +54,7 @@ pub fn check(input: &Mesh, options: &Options, result: &Simplified) {
 }
 
 /// The count is met exactly, or the result says why not.
-pub fn check_target(input: &Mesh, target: Target, result: &Simplified) {
+pub(crate) fn check_target(input: &Mesh, target: Target, result: &Simplified) {
     let (faces, vertices) = clean_counts(input);
     let (faces_left, vertices_left) = (result.mesh.triangles().len(), result.mesh.positions().len());
     let faces_wanted = match target {

@@ -5,7 +5,7 @@ use decimesh::{Attributes, Mesh};
 use proptest::prelude::*;
 
 /// A number that looks random and is the same for the same arguments (SplitMix64).
-pub fn noise(seed: u64, index: usize) -> u64 {
+pub(crate) fn noise(seed: u64, index: usize) -> u64 {
     let mut x = seed.wrapping_add((index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
     x = (x ^ x >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     x = (x ^ x >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -13,19 +13,19 @@ pub fn noise(seed: u64, index: usize) -> u64 {
 }
 
 /// [`noise`] between -1 and 1.
-pub fn signed_noise(seed: u64, index: usize) -> f32 {
+pub(crate) fn signed_noise(seed: u64, index: usize) -> f32 {
     (noise(seed, index) >> 40) as f32 / (1 << 23) as f32 - 1.0
 }
 
 /// 0 to `count`, shuffled.
-pub fn permutation(count: usize, seed: u64) -> Vec<u32> {
+pub(crate) fn permutation(count: usize, seed: u64) -> Vec<u32> {
     let mut order: Vec<u32> = (0..count as u32).collect();
     order.sort_by_key(|&index| noise(seed, index as usize));
     order
 }
 
 /// The same surface with vertices, faces and the first corners of faces in another order.
-pub fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
+pub(crate) fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
     let place = permutation(mesh.positions().len(), seed);
     let mut positions = vec![[0.0; 3]; place.len()];
     for (vertex, &place) in place.iter().enumerate() {
@@ -41,12 +41,12 @@ pub fn shuffled(mesh: &Mesh, seed: u64) -> Mesh {
 }
 
 /// The mesh with each position changed.
-pub fn moved(mesh: &Mesh, change: impl Fn([f32; 3]) -> [f32; 3]) -> Mesh {
+pub(crate) fn moved(mesh: &Mesh, change: impl Fn([f32; 3]) -> [f32; 3]) -> Mesh {
     Mesh::new(mesh.positions().iter().map(|&x| change(x)).collect(), mesh.triangles().to_vec()).unwrap()
 }
 
 /// Several meshes in one.
-pub fn joined(meshes: &[Mesh]) -> Mesh {
+pub(crate) fn joined(meshes: &[Mesh]) -> Mesh {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     for mesh in meshes {
@@ -58,7 +58,7 @@ pub fn joined(meshes: &[Mesh]) -> Mesh {
 }
 
 /// The mesh with attributes that differ from vertex to vertex, but keep to a part of their range.
-pub fn attributed(mesh: Mesh, seed: u64) -> Mesh {
+pub(crate) fn attributed(mesh: Mesh, seed: u64) -> Mesh {
     let (positions, triangles, _) = mesh.into_parts();
     let vertices = 0..positions.len();
     let normal = |vertex: usize| {
@@ -82,7 +82,7 @@ pub fn attributed(mesh: Mesh, seed: u64) -> Mesh {
 /// Vertices on a small grid of integers and triangles on any of them: vertices that coincide,
 /// triangles that are degenerate, flat or there twice, edges with many faces, faces inside out,
 /// vertices that nothing uses, all of it at once.
-pub fn dirty_mesh() -> impl Strategy<Value = Mesh> {
+pub(crate) fn dirty_mesh() -> impl Strategy<Value = Mesh> {
     let coordinate = (0i8..4).prop_map(f32::from);
     let positions = prop::collection::vec([coordinate.clone(), coordinate.clone(), coordinate], 1..24);
     positions.prop_flat_map(|positions| {
@@ -95,7 +95,7 @@ pub fn dirty_mesh() -> impl Strategy<Value = Mesh> {
 /// Spheres, tori, cubes and planes of up to some hundred triangles with their vertices jittered,
 /// some of their faces removed (which opens holes and leaves non-manifold vertices and loose
 /// pieces), in any order.
-pub fn torn_mesh() -> impl Strategy<Value = Mesh> {
+pub(crate) fn torn_mesh() -> impl Strategy<Value = Mesh> {
     let shape = prop_oneof![
         (1usize..7).prop_map(shapes::sphere),
         (3usize..12, 3usize..9).prop_map(|(n, m)| shapes::torus(n, m)),
@@ -118,7 +118,7 @@ pub fn torn_mesh() -> impl Strategy<Value = Mesh> {
 }
 
 /// A flat disc of `blades` triangles around one vertex.
-pub fn fan(blades: usize) -> Mesh {
+pub(crate) fn fan(blades: usize) -> Mesh {
     let rim = (0..blades).map(|blade| {
         let angle = std::f64::consts::TAU * blade as f64 / blades as f64;
         [angle.cos() as f32, angle.sin() as f32, 0.0]
@@ -129,7 +129,7 @@ pub fn fan(blades: usize) -> Mesh {
 }
 
 /// A tetrahedron of this size with a corner here.
-pub fn tetrahedron([x, y, z]: [f32; 3], size: f32) -> Mesh {
+pub(crate) fn tetrahedron([x, y, z]: [f32; 3], size: f32) -> Mesh {
     let positions = vec![[x, y, z], [x + size, y, z], [x, y + size, z], [x, y, z + size]];
     Mesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).unwrap()
 }
