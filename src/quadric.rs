@@ -181,3 +181,131 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placemen
     }
     Placement { cost: best.cost + drawn(best.offset), ..best }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat3, DVec3};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn vector(range: f32) -> impl Strategy<Value = Vec3> {
+        [-range..range, -range..range, -range..range].prop_map(Vec3::from)
+    }
+
+    /// Planes through the origin: unit normals, and weights.
+    fn planes() -> impl Strategy<Value = Vec<(Vec3, f32)>> {
+        let normal = vector(1.0).prop_filter_map("too short", |x| (x.length() > 0.1).then(|| x.normalize()));
+        prop::collection::vec((normal, 0.01f32..2.0), 1..9)
+    }
+
+    fn quadric(planes: &[(Vec3, f32)]) -> Quadric {
+        let mut quadric = Quadric::default();
+        planes.iter().for_each(|&(normal, weight)| quadric.add_plane(normal, weight));
+        quadric
+    }
+
+    /// The weighted sum of squared distances from planes through `origin`.
+    fn distances(planes: &[(Vec3, f32)], origin: DVec3, x: DVec3) -> f64 {
+        planes
+            .iter()
+            .map(|&(normal, weight)| f64::from(weight) * (x - origin).dot(normal.as_dvec3()).powi(2))
+            .sum()
+    }
+
+    /// The least of both sums with the pull to the middle of the edge, from the normal equations.
+    fn least(source: &[(Vec3, f32)], target: &[(Vec3, f32)], edge: Vec3) -> (DVec3, f64) {
+        let edge = edge.as_dvec3();
+        let outer = |normal: DVec3| DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
+        let matrix = |planes: &[(Vec3, f32)]| {
+            planes.iter().fold(DMat3::ZERO, |sum, &(normal, weight)| {
+                sum + outer(normal.as_dvec3()) * f64::from(weight)
+            })
+        };
+        let (a, b) = (matrix(source), matrix(target));
+        let sum = a + b;
+        let shift = f64::from(REGULARISATION) * (sum.x_axis.x + sum.y_axis.y + sum.z_axis.z);
+        let right = b * edge + edge * (0.5 * shift);
+        let x = (sum + DMat3::from_diagonal(DVec3::splat(shift))).inverse() * right;
+        let pull = shift * (x - 0.5 * edge).length_squared();
+        (x, distances(source, DVec3::ZERO, x) + distances(target, edge, x) + pull)
+    }
+
+    proptest! {
+        #[test]
+        fn a_quadric_is_the_sum_of_squared_distances(planes in planes(), x in vector(3.0)) {
+            let expected = distances(&planes, DVec3::ZERO, x.as_dvec3());
+            let found = f64::from(quadric(&planes).at(x));
+            let scale: f64 = planes.iter().map(|plane| f64::from(plane.1)).sum::<f64>() * x.as_dvec3().length_squared();
+            prop_assert!((found - expected).abs() <= 1e-5 * scale + 1e-9, "{} and {}", found, expected);
+        }
+
+        #[test]
+        fn a_face_weighs_as_its_area(a in vector(2.0), b in vector(2.0), x in vector(2.0)) {
+            let cross = a.cross(b);
+            prop_assume!(cross.length() > 1e-2);
+            let mut face = Quadric::default();
+            face.add_face(cross);
+            let expected = 0.5 * cross.length() * x.dot(cross.normalize()).powi(2);
+            prop_assert!((face.at(x) - expected).abs() <= 1e-4 * cross.length() * x.length_squared() + 1e-9);
+        }
+
+        /// The border's plane holds the edge and stands upright on the face.
+        #[test]
+        fn a_border_is_held_across_and_free_along(edge in vector(2.0), other in vector(2.0), up in -2.0f32..2.0) {
+            let cross = edge.cross(other);
+            prop_assume!(cross.length() > 1e-2 && edge.length() > 1e-1);
+            let mut border = Quadric::default();
+            border.add_border(edge, cross);
+            let trace = edge.length_squared();
+            let on_plane = edge * up + cross * up;
+            prop_assert!(border.at(on_plane) <= 1e-5 * trace * on_plane.length_squared() + 1e-9);
+            let across = edge.cross(cross).normalize() * up;
+            prop_assert!((border.at(across) - trace * up * up).abs() <= 1e-4 * trace * up * up + 1e-9);
+        }
+
+        /// No place is better than the one found, whether beside it or far away.
+        #[test]
+        fn placement_is_the_least(source in planes(), target in planes(), edge in vector(2.0)) {
+            prop_assume!(edge.length() > 0.05);
+            let placement = place(&quadric(&source), &quadric(&target), edge);
+            let (best, cost) = least(&source, &target, edge);
+            prop_assert!(placement.offset.is_finite() && placement.cost >= 0.0);
+            let trace: f64 = source.iter().chain(&target).map(|plane| f64::from(plane.1)).sum();
+            let unit = trace * edge.as_dvec3().length_squared();
+            let true_cost = |x: DVec3| {
+                let pull = f64::from(REGULARISATION) * trace * (x - 0.5 * edge.as_dvec3()).length_squared();
+                distances(&source, DVec3::ZERO, x) + distances(&target, edge.as_dvec3(), x) + pull
+            };
+            let found = true_cost(placement.offset.as_dvec3());
+            prop_assert!((found - f64::from(placement.cost)).abs() <= 1e-4 * unit, "{} and {}", found, placement.cost);
+            if best.length() < 2.9 * edge.as_dvec3().length() {
+                prop_assert!(found <= cost + 1e-4 * unit, "{} at {}, {} at {}", found, placement.offset, cost, best);
+            } else {
+                let ends = [DVec3::ZERO, 0.5 * edge.as_dvec3(), edge.as_dvec3()];
+                let least = ends.map(true_cost).into_iter().fold(f64::INFINITY, f64::min);
+                prop_assert!(found <= least + 1e-4 * unit, "{} and {}", found, least);
+            }
+        }
+
+        /// Scaled by a power of two all is the same.
+        #[test]
+        fn placement_scales(source in planes(), target in planes(), edge in vector(2.0), exponent in -8i32..8) {
+            prop_assume!(edge.length() > 0.05);
+            let factor = (exponent as f32).exp2();
+            let [a, b] = [&source, &target].map(|planes| quadric(planes));
+            let (here, there) = (place(&a, &b, edge), place(&a, &b, edge * factor));
+            prop_assert_eq!(here.offset * factor, there.offset);
+            prop_assert_eq!(here.cost * factor * factor, there.cost);
+        }
+    }
+
+    #[test]
+    fn an_end_on_all_planes_of_the_other_is_taken_as_it_is() {
+        let flat = quadric(&[(Vec3::Z, 1.0)]);
+        let corner = quadric(&[(Vec3::X, 1.0), (Vec3::Y, 1.0), (Vec3::Z, 1.0)]);
+        let edge = Vec3::new(0.3, -0.7, 0.0);
+        assert_eq!(place(&flat, &corner, edge).offset, edge);
+        assert_eq!(place(&corner, &flat, edge).offset, Vec3::ZERO);
+    }
+}

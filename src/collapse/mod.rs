@@ -79,9 +79,9 @@ impl Edge<'_> {
         Some(Collapse { point: position.extend(error), along })
     }
 
-    /// The link condition (Dey, Edelsbrunner, Guha and Nekhayev): the common neighbours of both
-    /// ends are the corners opposite the edge, and no others. Besides, an inner edge must not join
-    /// two borders, and no component may vanish.
+    /// The link condition (Dey, Edelsbrunner, Guha and Nekhayev): the links of both ends have in
+    /// common the corners opposite the edge, no other vertex, and no edge. Besides, an inner edge
+    /// must not join two borders, and no face that hangs by its corners alone may vanish.
     #[inline(always)]
     fn keeps_topology(&self, neighbours: &mut [Vec<u32>; 2]) -> bool {
         let (source, target) = (self.source, self.target);
@@ -91,26 +91,49 @@ impl Edge<'_> {
             return false;
         }
         if source.boundary || target.boundary {
-            return keeps_borders(source, target, shared as usize, neighbours);
+            return self.keeps_borders(shared as usize, neighbours);
         }
-        // All rings are closed fans: each neighbour stands once as `next`.
-        let common = source.common_next(target);
-        let around = source.spokes().len() + target.spokes().len() - 2 - common.min(2) as usize;
-        shared == 2 && common == 2 && around >= 3
+        // All fans are closed: each neighbour stands once as `next`.
+        shared == 2 && source.common_next(target) == 2 && !self.joins_faces()
     }
-}
 
-/// [`Edge::keeps_topology`] where a ring may be open.
-#[cold]
-#[inline(never)]
-fn keeps_borders(source: &Ring, target: &Ring, shared: usize, neighbours: &mut [Vec<u32>; 2]) -> bool {
-    let [of_source, of_target] = neighbours;
-    source.neighbours(of_source);
-    target.neighbours(of_target);
-    let common = of_source.iter().filter(|vertex| of_target.binary_search(vertex).is_ok()).count();
-    let around = of_source.len() + of_target.len() - 2 - common;
-    let joins_borders = shared == 2 && source.boundary && target.boundary;
-    common == shared && !joins_borders && around >= 2
+    /// [`keeps_topology`](Self::keeps_topology) where a fan may be open.
+    #[cold]
+    #[inline(never)]
+    fn keeps_borders(&self, shared: usize, [of_source, of_target]: &mut [Vec<u32>; 2]) -> bool {
+        let (source, target) = (self.source, self.target);
+        source.neighbours(of_source);
+        target.neighbours(of_target);
+        let mut both = of_source.iter().filter(|vertex| of_target.binary_search(vertex).is_ok());
+        let common = both.clone().count();
+        let joins_borders = shared == 2 && source.boundary && target.boundary;
+        let faces = |ring: &Ring, vertex: u32| {
+            let (after, before) = ring.occurrences(vertex);
+            after + before
+        };
+        let is_loose = shared == 1
+            && both.next().is_some_and(|&third| faces(source, third) == 1 && faces(target, third) == 1);
+        common == shared && !joins_borders && !is_loose && !self.joins_faces()
+    }
+
+    /// Whether a face of the source would come to lie on one of the target. As the links have no
+    /// vertices in common but those opposite the edge, it can only be one with both of these.
+    #[inline(always)]
+    fn joins_faces(&self) -> bool {
+        let source = self.source.vertex;
+        let names = |ring: &'_ Ring| ring.next().iter().copied().zip(ring.previous().iter().copied());
+        let mut opposite = [source; 2];
+        for (next, previous) in names(self.target) {
+            if next == source {
+                opposite[0] = previous;
+            } else if previous == source {
+                opposite[1] = next;
+            }
+        }
+        let [a, b] = opposite;
+        let spans = |ring| names(ring).any(|pair| pair == (a, b) || pair == (b, a));
+        spans(self.source) && spans(self.target)
+    }
 }
 
 /// Moves the ring's vertex by `offset` and looks at each face that survives a collapse with
@@ -138,5 +161,11 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
         let height = before.dot(offset);
         distance_squared = distance_squared.max(height * height / (area_before + f32::MIN_POSITIVE));
     }
+    if ring.boundary {
+        distance_squared = distance_squared.max(ring.border_distance_squared(offset));
+    }
     (!folded).then_some(distance_squared)
 }
+
+#[cfg(test)]
+mod tests;

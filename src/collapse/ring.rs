@@ -127,20 +127,38 @@ impl Ring {
         other.next().iter().map(|&vertex| count_equal(&self.next[..padded], vertex)).sum()
     }
 
-    /// Every edge to the vertex that has not two faces of one orientation is held by a plane for
-    /// each of its faces: borders, non-manifold edges, and edges where the orientation changes.
+    /// Calls `see` with every edge to the vertex that has not two faces of one orientation (borders,
+    /// non-manifold edges, and edges where the orientation changes), and with each of its faces.
+    fn visit_borders(&self, mut see: impl FnMut(Vec3A, &Spoke)) {
+        for ((&next, &previous), spoke) in self.next().iter().zip(self.previous()).zip(self.spokes()) {
+            for (neighbour, edge) in [(next, spoke.to_next), (previous, spoke.to_previous)] {
+                if self.occurrences(neighbour) != (1, 1) {
+                    see(edge, spoke);
+                }
+            }
+        }
+    }
+
+    /// Holds borders by a plane for each of their faces.
     #[cold]
     #[inline(never)]
     fn add_border_planes(&mut self) {
         let mut quadric = self.quadric;
-        for ((&next, &previous), spoke) in self.next().iter().zip(self.previous()).zip(self.spokes()) {
-            for (neighbour, edge) in [(next, spoke.to_next), (previous, spoke.to_previous)] {
-                if self.occurrences(neighbour) != (1, 1) {
-                    quadric.add_border(edge, spoke.cross);
-                }
-            }
-        }
+        self.visit_borders(|edge, spoke| quadric.add_border(edge, spoke.cross));
         self.quadric = quadric;
+    }
+
+    /// The largest squared distance of `offset` from the planes that hold borders.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn border_distance_squared(&self, offset: Vec3A) -> f32 {
+        let mut largest = 0f32;
+        self.visit_borders(|edge, spoke| {
+            let normal = edge.cross(spoke.cross);
+            let height = normal.dot(offset);
+            largest = largest.max(height * height / (normal.length_squared() + f32::MIN_POSITIVE));
+        });
+        largest
     }
 
     /// The neighbour, of those that are `eligible`, at which this vertex's quadric is least, and

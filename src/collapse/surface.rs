@@ -7,7 +7,7 @@
 use super::tile::Tile;
 use crate::mesh::{Attributes, Mesh, MeshError};
 use crate::workers::Workers;
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Three corners. Atomic only so that tiles that work side by side may read the faces between
@@ -66,11 +66,10 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to about unit
-    /// size: squares of areas then neither overflow nor vanish in single precision. The vertex `v`
-    /// goes to `rank[v]`, if there is a rank.
+    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two if it is very large
+    /// or small. The vertex `v` goes to `rank[v]`, if there is a rank.
     pub(crate) fn new(mesh: &Mesh, rank: Option<&[u32]>, locked: &[u32], track_origins: bool) -> Self {
-        let scale = unit_scale(mesh.positions());
+        let scale = comfortable_scale(mesh);
         let count = mesh.positions().len();
         let place = |vertex: u32| rank.map_or(vertex, |rank| rank[vertex as usize]);
         let scaled = mesh.positions().iter().map(|&position| (Vec3::from(position) * scale).extend(0.0));
@@ -297,7 +296,11 @@ impl Surface {
         triangles
             .extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
         let mut positions = Vec::with_capacity(used as usize);
-        positions.extend(only_used(&self.points, &map).map(|&point| (point.truncate() * unscale).to_array()));
+        positions.extend(only_used(&self.points, &map).map(|&point| {
+            // An optimal placement may lie a little beyond the largest number there is.
+            let position = point.truncate() * unscale;
+            position.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX)).to_array()
+        }));
         let attributes = Attributes {
             normals: self.attributes.normals.as_ref().map(|n| only_used(n, &map).copied().collect()),
             colors: self.attributes.colors.as_ref().map(|c| only_used(c, &map).copied().collect()),
@@ -379,17 +382,16 @@ fn last_merged(merged: &[u32], origin: u32) -> Option<u32> {
     (vertex != NONE).then_some(vertex)
 }
 
-/// A power of two that brings the longest side of the bounding box to between 1 and 2, without
-/// letting a coordinate overflow.
-fn unit_scale(positions: &[[f32; 3]]) -> f32 {
-    let infinite = Vec3::splat(f32::INFINITY);
-    let corners = positions.iter().map(|&position| Vec3::from(position));
-    let (low, high) =
-        corners.fold((infinite, -infinite), |(low, high), corner| (low.min(corner), high.max(corner)));
-    // In double precision: the difference of two finite coordinates may overflow in single.
-    let extent = (high.as_dvec3() - low.as_dvec3()).max_element();
-    let largest = f64::from(low.abs().max(high.abs()).max_element());
-    if !(extent > 0.0 && extent.is_finite()) {
+/// A power of two that brings the longest side of the bounding box to between 1 and 2, or leaves it
+/// alone between 1 and 2²⁰: squares of areas then neither overflow nor vanish in single precision,
+/// and no coordinate that matters is rounded.
+fn comfortable_scale(mesh: &Mesh) -> f32 {
+    // Vertices that no triangle uses must not set the scale.
+    let Some((low, high)) = mesh.bounds() else { return 1.0 };
+    let (low, high) = (DVec3::from(low.map(f64::from)), DVec3::from(high.map(f64::from)));
+    let extent = (high - low).max_element();
+    let largest = low.abs().max(high.abs()).max_element();
+    if extent == 0.0 || (1.0..=f64::from(1 << 20)).contains(&extent) {
         return 1.0;
     }
     let exponent = (-extent.log2().floor()).min(100.0 - largest.log2().ceil()).clamp(-126.0, 126.0);
@@ -460,7 +462,9 @@ fn only_used<'a, T>(values: &'a [T], map: &'a [u32]) -> impl Iterator<Item = &'a
     values.iter().zip(map).filter(|(_, successor)| **successor != NONE).map(|(value, _)| value)
 }
 
-fn hash(vertex: u32) -> u32 {
+/// A mixture of the bits of a vertex, not linear, so that sums of them say which were added.
+#[inline(always)]
+pub(crate) fn hash(vertex: u32) -> u32 {
     let mixed = vertex.wrapping_mul(0x9E37_79B1);
     mixed ^ mixed >> 15
 }

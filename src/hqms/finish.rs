@@ -12,7 +12,7 @@
 use super::goal::{Counts, Goal};
 use crate::collapse::queue::Queue;
 use crate::collapse::ring::Ring;
-use crate::collapse::surface::{NONE, Surface, flag, is_alive, neighbours};
+use crate::collapse::surface::{NONE, Surface, flag, hash, is_alive, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Edge, Rules};
 use crate::monitor::Cancelled;
@@ -172,8 +172,7 @@ impl<'a> Finish<'a> {
         }
         for &corner in &*corners {
             let (next, previous) = neighbours(&self.surface.faces, corner);
-            let mix = |vertex: u32| (vertex ^ vertex >> 15).wrapping_mul(0x9E37_79B1);
-            boundary = boundary.wrapping_add(mix(next)).wrapping_sub(mix(previous));
+            boundary = boundary.wrapping_add(hash(next)).wrapping_sub(hash(previous));
         }
         let origin = self.position(vertex);
         ring.gather(vertex, boundary != 0, corners.len(), |ring| {
@@ -526,7 +525,7 @@ impl<'a> Finish<'a> {
     }
 }
 
-/// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
+/// Whether the collapse leaves every edge it joins with at most one face on each side; and
 /// the faces that would then lie on each other: both go if they face each other, one if not.
 fn coincident<'r>(
     source: &'r Ring,
@@ -551,19 +550,21 @@ fn coincident<'r>(
     }
     doomed.sort_unstable();
     doomed.dedup();
+    // In how many of the faces that stay `vertex` comes after the ring's vertex, and before.
     let count = |ring: &'r Ring, corners: &'r [u32], vertex: u32, avoid: u32| {
-        let left = faces(ring, corners).filter(|((next, previous), face)| {
-            (*next == vertex || *previous == vertex)
-                && *next != avoid
-                && *previous != avoid
-                && doomed.binary_search(face).is_err()
-        });
-        left.count()
+        let stays = |face: &u32, names: (u32, u32)| {
+            names.0 != avoid && names.1 != avoid && doomed.binary_search(face).is_err()
+        };
+        let left = faces(ring, corners).filter(|(names, face)| stays(face, *names));
+        left.fold((0, 0), |(after, before), ((next, previous), _)| {
+            (after + u32::from(next == vertex), before + u32::from(previous == vertex))
+        })
     };
     let overfull = |vertex: u32| {
         let of_source = count(source, source_corners, vertex, target.vertex);
         let of_target = count(target, target_corners, vertex, source.vertex);
-        of_source > 0 && of_target > 0 && of_source + of_target > 2
+        let joined = of_source != (0, 0) && of_target != (0, 0);
+        joined && (of_source.0 + of_target.0 > 1 || of_source.1 + of_target.1 > 1)
     };
     let around = source.next().iter().chain(source.previous());
     let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));

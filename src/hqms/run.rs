@@ -109,10 +109,16 @@ impl<'a> Run<'a> {
             if goal.excess(self.counts) > 0
                 && let Some((snapshot, counts)) = checkpoint
             {
+                let kept = (self.surface.snapshot(), self.counts);
                 self.surface.restore(snapshot);
                 self.counts = counts;
-                self.topology_changed = true;
                 self.finish(goal, &Rules { any_topology: true, ..rules }, &mut report)?;
+                if goal.excess(self.counts) < goal.excess(kept.1) {
+                    self.topology_changed = true;
+                } else {
+                    self.surface.restore(kept.0);
+                    self.counts = kept.1;
+                }
             }
             self.surface.build_rings(&self.workers);
         }

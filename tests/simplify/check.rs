@@ -1,0 +1,200 @@
+//! What must be true of every result, whatever the input and the options.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use decimesh::mesh::{Violation, verify};
+use decimesh::{Mesh, Options, Simplified, StoppedBy, Target, Topology};
+
+/// How far a vertex may lie outside the bounds of the input, as a share of their diagonal.
+const OVERSHOOT: f64 = 0.5;
+
+/// Whether a triangle names three vertices.
+pub(crate) fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
+}
+
+/// The triangles that name three vertices, and the vertices they name.
+pub(crate) fn clean_counts(mesh: &Mesh) -> (usize, usize) {
+    let faces = || mesh.triangles().iter().filter(|triangle| is_face(triangle));
+    (faces().count(), faces().flatten().collect::<BTreeSet<_>>().len())
+}
+
+/// The vertices of edges that have not as many faces in one direction as in the other.
+pub(crate) fn boundary(mesh: &Mesh) -> BTreeSet<u32> {
+    let mut edges: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();
+    for triangle in mesh.triangles().iter().filter(|triangle| is_face(triangle)) {
+        for corner in 0..3 {
+            let (from, to) = (triangle[corner], triangle[(corner + 1) % 3]);
+            edges.entry([from.min(to), from.max(to)]).or_default()[usize::from(from < to)] += 1;
+        }
+    }
+    edges.into_iter().filter(|(_, sides)| sides[0] != sides[1]).flat_map(|(edge, _)| edge).collect()
+}
+
+fn bits(position: [f32; 3]) -> [u32; 3] {
+    position.map(f32::to_bits)
+}
+
+/// Panics, and says what is wrong, unless `result` keeps what the options promise.
+pub(crate) fn check(input: &Mesh, options: &Options, result: &Simplified) {
+    match verify(input, &result.mesh, !result.topology_changed) {
+        Ok(()) => {}
+        // An edge with three faces may go on as one with two that disagree.
+        Err(Violation::InconsistentEdges { .. } | Violation::NonManifoldVertices { .. })
+            if input.topology().non_manifold_edges > 0 => {}
+        Err(violation) => panic!("{violation}"),
+    }
+    assert!(options.topology != Topology::Keep || !result.topology_changed, "the topology was to be kept");
+    assert!(result.error >= 0.0 && result.error.is_finite(), "error {}", result.error);
+    check_target(input, options.target, result);
+    check_origins(input, options, result);
+    check_locks(input, options, result);
+    check_attributes(input, &result.mesh);
+    check_extent(input, &result.mesh);
+}
+
+/// The count is met exactly, or the result says why not.
+pub(crate) fn check_target(input: &Mesh, target: Target, result: &Simplified) {
+    let (faces, vertices) = clean_counts(input);
+    let (faces_left, vertices_left) = (result.mesh.triangles().len(), result.mesh.positions().len());
+    let faces_wanted = match target {
+        Target::Triangles(wanted) => wanted,
+        Target::Ratio(ratio) => (input.triangles().len() as f64 * ratio).floor() as usize,
+        Target::Vertices(wanted) => {
+            match result.stopped_by {
+                StoppedBy::Target if vertices <= wanted => {
+                    assert_eq!((faces_left, vertices_left), (faces, vertices), "nothing was to be done");
+                }
+                StoppedBy::Target if !result.topology_changed => {
+                    assert_eq!(vertices_left, wanted, "vertices")
+                }
+                StoppedBy::Target => assert!(vertices_left <= wanted, "{vertices_left} of {wanted} vertices"),
+                _ => assert!(
+                    vertices_left > wanted,
+                    "{vertices_left} of {wanted} vertices, but not the target"
+                ),
+            }
+            return;
+        }
+        Target::MaxError(limit) => {
+            assert_eq!(result.stopped_by, StoppedBy::Error);
+            assert!(result.error <= limit, "error {} of {limit}", result.error);
+            return;
+        }
+    };
+    match result.stopped_by {
+        StoppedBy::Target if faces <= faces_wanted => {
+            assert_eq!((faces_left, vertices_left), (faces, vertices), "nothing was to be done");
+        }
+        StoppedBy::Target => assert!(
+            faces_left == faces_wanted || faces_left + 1 == faces_wanted,
+            "{faces_left} triangles, {faces_wanted} were asked for"
+        ),
+        _ => {
+            assert!(faces_left > faces_wanted, "{faces_left} of {faces_wanted} triangles, but not the target")
+        }
+    }
+}
+
+fn check_origins(input: &Mesh, options: &Options, result: &Simplified) {
+    assert_eq!(result.origins.is_some(), options.track_origins);
+    let Some(origins) = &result.origins else { return };
+    assert_eq!(origins.len(), input.positions().len());
+    let mut reached = vec![false; result.mesh.positions().len()];
+    for &origin in origins.iter().filter(|&&origin| origin != u32::MAX) {
+        reached[origin as usize] = true;
+    }
+    assert!(reached.iter().all(|&reached| reached), "an output vertex that nothing went into");
+    let used: BTreeSet<u32> =
+        input.triangles().iter().filter(|triangle| is_face(triangle)).flatten().copied().collect();
+    for (vertex, &origin) in origins.iter().enumerate() {
+        let vanished = origin == u32::MAX;
+        assert!(
+            !vanished || result.topology_changed || !used.contains(&(vertex as u32)),
+            "{vertex} vanished"
+        );
+        assert!(vanished || used.contains(&(vertex as u32)), "{vertex} was not used, but went somewhere");
+    }
+}
+
+/// Locked vertices are where they were, each as a vertex of its own.
+fn check_locks(input: &Mesh, options: &Options, result: &Simplified) {
+    let mut locked: BTreeSet<u32> = options.locked.iter().copied().collect();
+    if options.lock_boundary {
+        locked.extend(boundary(input));
+    }
+    let used: BTreeSet<u32> =
+        input.triangles().iter().filter(|triangle| is_face(triangle)).flatten().copied().collect();
+    locked.retain(|vertex| used.contains(vertex));
+    if let Some(origins) = &result.origins {
+        let mut taken = BTreeSet::new();
+        for &vertex in &locked {
+            let origin = origins[vertex as usize];
+            if origin == u32::MAX {
+                assert!(result.topology_changed, "the locked vertex {vertex} vanished");
+            } else {
+                let (before, after) =
+                    (input.positions()[vertex as usize], result.mesh.positions()[origin as usize]);
+                assert_eq!(
+                    bits(before),
+                    bits(after),
+                    "the locked vertex {vertex} moved from {before:?} to {after:?}"
+                );
+                assert!(taken.insert(origin), "the locked vertex {vertex} went into another");
+            }
+        }
+    } else if !result.topology_changed {
+        let mut left: BTreeMap<[u32; 3], usize> = BTreeMap::new();
+        for &position in result.mesh.positions() {
+            *left.entry(bits(position)).or_default() += 1;
+        }
+        for &vertex in &locked {
+            let position = input.positions()[vertex as usize];
+            let count = left.entry(bits(position)).or_default();
+            assert!(*count > 0, "the locked vertex {vertex} at {position:?} is gone");
+            *count -= 1;
+        }
+    }
+}
+
+fn check_attributes(input: &Mesh, output: &Mesh) {
+    let (before, after) = (input.attributes(), output.attributes());
+    assert_eq!(before.normals.is_some(), after.normals.is_some());
+    assert_eq!(before.colors.is_some(), after.colors.is_some());
+    assert_eq!(before.uvs.is_some(), after.uvs.is_some());
+    for normal in after.normals.iter().flatten() {
+        let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+        assert!((length - 1.0).abs() < 1e-4, "a normal of length {length}");
+    }
+    if let (Some(before), Some(after)) = (&before.colors, &after.colors) {
+        for channel in 0..4 {
+            let all = || before.iter().map(|color| color[channel]);
+            let range = all().min().unwrap_or(0)..=all().max().unwrap_or(0);
+            assert!(after.iter().all(|color| range.contains(&color[channel])), "a colour out of range");
+        }
+    }
+    if let (Some(before), Some(after)) = (&before.uvs, &after.uvs) {
+        for axis in 0..2 {
+            let all = || before.iter().map(|uv| uv[axis]);
+            let (low, high) = (all().fold(f32::INFINITY, f32::min), all().fold(f32::NEG_INFINITY, f32::max));
+            let slack = 1e-5 * (high - low);
+            let range = low - slack..=high + slack;
+            assert!(after.iter().all(|uv| range.contains(&uv[axis])), "a texture coordinate out of range");
+        }
+    }
+}
+
+/// Optimal placements may leave the bounds, but not by much.
+fn check_extent(input: &Mesh, output: &Mesh) {
+    let (Some((low, high)), Some((low_after, high_after))) = (input.bounds(), output.bounds()) else {
+        return;
+    };
+    let slack = OVERSHOOT * input.diagonal();
+    for axis in 0..3 {
+        let outside = f64::max(
+            f64::from(low[axis]) - f64::from(low_after[axis]),
+            f64::from(high_after[axis]) - f64::from(high[axis]),
+        );
+        assert!(outside <= slack, "a vertex lies {outside} outside, on a diagonal of {}", input.diagonal());
+    }
+}

@@ -1,0 +1,11 @@
+//! The engine from outside: what it promises of every mesh, and what it must do with particular ones.
+
+mod cancel;
+mod check;
+mod determinism;
+mod hostile;
+mod invariants;
+mod levels;
+mod meshes;
+mod metamorphic;
+mod zero_error;
