@@ -1,2 +1,37 @@
-//! The decimesh command.
-fn main() {}
+//! The `decimesh` command. [`arguments`] says what can be asked; each subcommand has its own module.
+
+mod allocation;
+mod arguments;
+mod compare;
+mod demo;
+mod failure;
+mod files;
+mod info;
+mod levels;
+mod progress;
+mod render;
+mod report;
+mod simplify;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let result = match &Arguments::parse().command {
+        Command::Simplify(arguments) => simplify::run(arguments),
+        Command::Levels(arguments) => levels::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
+        Command::Info(arguments) => info::run(arguments),
+        Command::Demo(arguments) => demo::run(arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("decimesh: {failure}");
+            failure.exit_code()
+        }
+    }
+}

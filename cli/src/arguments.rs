@@ -1,0 +1,354 @@
+//! What can be said on the command line, and what it means to the engine.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::builder::RangedU64ValueParser;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use decimesh::mesh::Weld;
+use decimesh::{Options, Selection, Target, Topology};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done (also when a target was missed: the command then says why)
+  1  something unexpected
+  2  the command line makes no sense
+  3  an input cannot be read
+  4  an output cannot be written
+  5  an option's value, or a mesh, does not suit what was asked for
+  6  --verify found the result to be wrong; nothing was written
+
+Files are written whole or not at all. PLY, OBJ, STL, OFF and glTF are known by their extensions.";
+
+/// Simplify, compare and look at triangle meshes.
+#[derive(Debug, Parser)]
+#[command(name = "decimesh", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Make a mesh of fewer triangles.
+    #[command(after_help = EXIT_CODES)]
+    Simplify(SimplifyArguments),
+    /// Make a chain of levels of detail, a file each.
+    #[command(after_help = EXIT_CODES)]
+    Levels(LevelsArguments),
+    /// Measure the distance between two surfaces.
+    #[command(after_help = EXIT_CODES)]
+    Compare(CompareArguments),
+    /// Say what is in a file.
+    #[command(after_help = EXIT_CODES)]
+    Info(InfoArguments),
+    /// Make a statue of a million triangles, simplify it, and draw what became of it.
+    #[command(after_help = EXIT_CODES)]
+    Demo(DemoArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimplifyArguments {
+    /// The mesh to simplify.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Where the result goes; its extension says in what format.
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) target: TargetArguments,
+    #[command(flatten)]
+    pub(crate) engine: EngineArguments,
+    /// Check the result against every invariant before it is written.
+    #[arg(long)]
+    pub(crate) verify: bool,
+    /// Write what happened, as JSON, to this file.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Print nothing but warnings and errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// What to arrive at: exactly one of these.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub(crate) struct TargetArguments {
+    /// At most this many triangles.
+    #[arg(long, value_name = "N")]
+    triangles: Option<usize>,
+    /// At most this many vertices.
+    #[arg(long, value_name = "N")]
+    vertices: Option<usize>,
+    /// This fraction of the triangles, 0 to 1.
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    ratio: Option<f64>,
+    /// As few triangles as an estimated distance of this much allows: in units of the positions, or
+    /// with a % sign as a share of the bounding box's diagonal.
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    max_error: Option<ErrorBound>,
+}
+
+impl TargetArguments {
+    /// The target for a mesh whose bounding box has this diagonal.
+    pub(crate) fn target(&self, diagonal: f64) -> Target {
+        match *self {
+            Self { triangles: Some(count), .. } => Target::Triangles(count),
+            Self { vertices: Some(count), .. } => Target::Vertices(count),
+            Self { ratio: Some(ratio), .. } => Target::Ratio(ratio),
+            Self { max_error: Some(ErrorBound::Absolute(bound)), .. } => Target::MaxError(bound),
+            Self { max_error: Some(ErrorBound::Share(share)), .. } => {
+                Target::MaxError((share * diagonal) as f32)
+            }
+            // The group is required, so this is only reached if clap lets nothing through.
+            Self { max_error: None, .. } => Target::Ratio(1.0),
+        }
+    }
+}
+
+/// A distance, or a share of the bounding box's diagonal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum ErrorBound {
+    Absolute(f32),
+    Share(f64),
+}
+
+impl FromStr for ErrorBound {
+    type Err = std::num::ParseFloatError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.strip_suffix('%') {
+            Some(percent) => Ok(Self::Share(percent.trim_end().parse::<f64>()? / 100.0)),
+            None => text.parse().map(Self::Absolute),
+        }
+    }
+}
+
+/// How to simplify, whatever the target.
+#[derive(Debug, Args)]
+pub(crate) struct EngineArguments {
+    /// Which collapses a pass takes: all below a sampled threshold of cost, or the cheapest of a
+    /// replacement-selection heap.
+    #[arg(long, value_enum, default_value_t = SelectionName::Threshold)]
+    selection: SelectionName,
+    /// The size of the replacement-selection heap.
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 15,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..=1 << 20)
+    )]
+    records: usize,
+    /// Keep the vertices of the border where they are, bit for bit.
+    #[arg(long)]
+    lock_boundary: bool,
+    /// Keep all holes, handles and components, even if the target is missed.
+    #[arg(long, conflicts_with = "allow_topology")]
+    keep_topology: bool,
+    /// Give up holes, handles and components where the target cannot be reached otherwise (the default).
+    #[arg(long)]
+    allow_topology: bool,
+    /// First merge vertices of the same position, or not farther apart than a tolerance in units of
+    /// the positions.
+    #[arg(
+        long,
+        value_name = "TOLERANCE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "0",
+        allow_hyphen_values = true
+    )]
+    weld: Option<f32>,
+    /// Write the text variant of formats that have one.
+    #[arg(long)]
+    pub(crate) ascii: bool,
+    /// Threads to use; 0: all that the machine has. The result does not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SelectionName {
+    Threshold,
+    Replacement,
+}
+
+impl EngineArguments {
+    /// The engine's options for `target`.
+    pub(crate) fn options(&self, target: Target) -> Options {
+        Options {
+            selection: match self.selection {
+                SelectionName::Threshold => Selection::SampledThreshold,
+                SelectionName::Replacement => Selection::ReplacementSelection { records: self.records },
+            },
+            topology: if self.keep_topology { Topology::Keep } else { Topology::RelaxIfStuck },
+            lock_boundary: self.lock_boundary,
+            threads: self.threads,
+            ..Options::new(target)
+        }
+    }
+
+    /// How to weld the input, where that is asked for.
+    pub(crate) fn weld(&self) -> Option<Weld> {
+        self.weld.map(|tolerance| if tolerance == 0.0 { Weld::Exact } else { Weld::Tolerance(tolerance) })
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LevelsArguments {
+    /// The mesh to make levels of.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// The directory the levels go into, as NAME_1.ply, NAME_2.ply ...; made if it is missing.
+    #[arg(value_name = "OUTDIR")]
+    pub(crate) directory: PathBuf,
+    /// How many levels.
+    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=64))]
+    pub(crate) count: usize,
+    /// Triangles of a level as a fraction of those of the level before it, above 0 and below 1.
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    pub(crate) ratio: f64,
+    /// Extension of the files, and so their format.
+    #[arg(long, value_name = "EXTENSION", default_value = "ply")]
+    pub(crate) format: String,
+    #[command(flatten)]
+    pub(crate) engine: EngineArguments,
+    /// Do not measure the levels' distance from the input.
+    #[arg(long)]
+    pub(crate) no_measure: bool,
+    /// Write what happened, as JSON, to this file.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Print nothing but warnings and errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArguments {
+    /// The surface to compare with: its bounding box is the measure of the relative numbers.
+    #[arg(value_name = "A")]
+    pub(crate) reference: PathBuf,
+    /// The surface to compare.
+    #[arg(value_name = "B")]
+    pub(crate) other: PathBuf,
+    /// Samples a side.
+    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    pub(crate) samples: Option<usize>,
+    /// Seed of the samples: the same seed gives the same numbers.
+    #[arg(long, value_name = "SEED")]
+    pub(crate) seed: Option<u64>,
+    /// Threads to use; 0: all that the machine has. The numbers do not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArguments {
+    /// The mesh to look at.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DemoArguments {
+    /// The directory for the picture and the levels; made if it is missing.
+    #[arg(value_name = "OUTDIR", default_value = "decimesh-demo")]
+    pub(crate) directory: PathBuf,
+    /// Triangles of the statue, about.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1_000_000,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1_000..=100_000_000)
+    )]
+    pub(crate) triangles: usize,
+    /// Width of the picture in pixels.
+    #[arg(
+        long,
+        value_name = "PIXELS",
+        default_value_t = 1800,
+        value_parser = RangedU64ValueParser::<usize>::new().range(100..=10_000)
+    )]
+    pub(crate) width: usize,
+    /// Print nothing but warnings and errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    fn parse(line: &str) -> Result<SimplifyArguments, clap::Error> {
+        let words = ["decimesh", "simplify", "in.ply", "out.ply"].into_iter().chain(line.split_whitespace());
+        match Arguments::try_parse_from(words)?.command {
+            Command::Simplify(arguments) => Ok(arguments),
+            other => panic!("parsed as {other:?}"),
+        }
+    }
+
+    fn target(line: &str) -> Target {
+        parse(line).unwrap().target.target(200.0)
+    }
+
+    #[test]
+    fn command_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn each_target_reaches_the_engine() {
+        assert_eq!(target("--triangles 12"), Target::Triangles(12));
+        assert_eq!(target("--vertices 13"), Target::Vertices(13));
+        assert_eq!(target("--ratio 0.25"), Target::Ratio(0.25));
+        assert_eq!(target("--max-error 0.5"), Target::MaxError(0.5));
+        assert_eq!(target("--max-error 0.5%"), Target::MaxError(1.0));
+        assert_eq!(target("--max-error -1"), Target::MaxError(-1.0));
+        assert_eq!(target("--max-error=-1%"), Target::MaxError(-2.0));
+    }
+
+    #[test]
+    fn exactly_one_target() {
+        for line in ["", "--triangles 1 --vertices 1", "--ratio 0.5 --max-error 1%", "--max-error 1%%"] {
+            assert_eq!(parse(line).unwrap_err().exit_code(), 2, "{line}");
+        }
+    }
+
+    #[test]
+    fn engine_options() {
+        let options =
+            |line: &str| parse(&format!("--ratio 0.5 {line}")).unwrap().engine.options(Target::Ratio(0.5));
+        assert_eq!(options(""), Options::new(Target::Ratio(0.5)));
+        assert_eq!(options("--allow-topology"), Options::new(Target::Ratio(0.5)));
+        assert_eq!(options("--keep-topology").topology, Topology::Keep);
+        assert_eq!(
+            options("--selection replacement --records 7").selection,
+            Selection::ReplacementSelection { records: 7 }
+        );
+        assert!(options("--lock-boundary").lock_boundary);
+        assert_eq!(options("--threads 3").threads, 3);
+        assert!(parse("--ratio 0.5 --keep-topology --allow-topology").is_err());
+    }
+
+    #[test]
+    fn weld_takes_a_tolerance_only_after_an_equals_sign() {
+        let weld =
+            |line: &str| parse(&format!("--ratio 0.5 {line}")).map(|arguments| arguments.engine.weld());
+        assert!(matches!(weld(""), Ok(None)));
+        assert!(matches!(weld("--weld"), Ok(Some(Weld::Exact))));
+        assert!(matches!(weld("--weld=0.25"), Ok(Some(Weld::Tolerance(0.25)))));
+        assert!(weld("--weld 0.25").is_err());
+    }
+}

@@ -1,0 +1,68 @@
+//! `decimesh levels`.
+
+use crate::workbench::{Workbench, ball, count, number};
+
+#[test]
+fn each_level_is_a_file_as_the_report_says() {
+    let bench = Workbench::with("ball.ply", &ball(40, 40));
+    let text = bench.run_well("levels ball.ply out --count 3 --ratio 0.25 --format obj --report report.json");
+    assert_eq!(text.lines().count(), 4, "{text}");
+    assert!(text.lines().next().unwrap().contains("measured RMS"), "{text}");
+    let names = ["ball.ply", "out", "out/ball_1.obj", "out/ball_2.obj", "out/ball_3.obj", "report.json"];
+    assert_eq!(bench.files(), names);
+
+    let report = bench.json("report.json");
+    assert_eq!(count(&report, "triangles_in"), bench.read("ball.ply").triangles().len());
+    assert!(number(&report, "seconds") >= 0.0);
+    let levels = report["levels"].as_array().unwrap();
+    assert_eq!(levels.len(), 3);
+    for (level, number_of_level) in levels.iter().zip(1..) {
+        assert_eq!(count(level, "level"), number_of_level);
+        let written = bench.read(&format!("out/{}", level["file"].as_str().unwrap()));
+        assert_eq!(count(level, "triangles"), written.triangles().len());
+        assert_eq!(count(level, "vertices"), written.positions().len());
+        let most = (3120.0 * 0.25_f64.powi(number_of_level as i32)) as usize;
+        assert!((most - 1..=most).contains(&written.triangles().len()), "{level}");
+        assert!(0.0 <= number(level, "rms") && number(level, "rms") <= number(level, "max"), "{level}");
+    }
+    for pair in levels.windows(2) {
+        assert!(number(&pair[0], "error") <= number(&pair[1], "error"), "{report}");
+        assert!(number(&pair[0], "rms") < number(&pair[1], "rms"), "{report}");
+    }
+}
+
+#[test]
+fn measuring_can_be_left_out() {
+    let bench = Workbench::with("ball.ply", &ball(10, 10));
+    let text = bench.run_well("levels ball.ply . --count 1 --ratio 0.5 --no-measure --report report.json");
+    assert!(!text.contains("measured"), "{text}");
+    let level = &bench.json("report.json")["levels"][0];
+    assert!(level.get("rms").is_none() && level.get("max").is_none(), "{level}");
+    assert_eq!(bench.files(), ["ball.ply", "ball_1.ply", "report.json"]);
+}
+
+#[test]
+fn quiet_is_silent() {
+    let bench = Workbench::with("ball.ply", &ball(20, 20));
+    let outcome = bench.run("levels ball.ply out --count 2 --ratio 0.5 --quiet");
+    assert_eq!((outcome.code, outcome.stdout.as_str(), outcome.stderr.as_str()), (Some(0), "", ""));
+}
+
+#[test]
+fn failures_have_their_codes_and_change_nothing() {
+    let bench = Workbench::with("ball.ply", &ball(10, 10));
+    std::fs::write(bench.path("file"), "in the way").unwrap();
+    bench.run_badly("levels ball.ply out --ratio 0.5", 2, "--count");
+    bench.run_badly("levels ball.ply out --ratio 0.5 --count 0", 2, "--count");
+    bench.run_badly("levels missing.ply out --ratio 0.5 --count 2", 3, "cannot read missing.ply");
+    bench.run_badly("levels ball.ply file --ratio 0.5 --count 2", 4, "cannot write file");
+    bench.run_badly(
+        "levels ball.ply out --ratio 0.5 --count 2 --format xyz",
+        4,
+        "cannot write out/ball_1.xyz",
+    );
+    bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --report nowhere/r.json", 4, "nowhere/r.json");
+    for ratio in ["0", "1", "-0.5", "nan"] {
+        bench.run_badly(&format!("levels ball.ply out --ratio {ratio} --count 2"), 5, "ratio");
+    }
+}

@@ -1,0 +1,9 @@
+//! The command as its users meet it: the real binary on real files.
+
+mod compare;
+mod demo;
+mod help;
+mod info;
+mod levels;
+mod simplify;
+mod workbench;

@@ -1,0 +1,89 @@
+//! What a file promises costs nothing: memory is taken only for what the file really holds.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use decimesh::io::{Format, read_from_slice};
+
+struct Counting;
+
+static LIVE: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes to the system's allocator as it comes; counting touches no memory of it.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        PEAK.fetch_max(LIVE.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
+        // SAFETY: the caller keeps the contract of `alloc`, which is the same here.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size(), Relaxed);
+        // SAFETY: the pointer came from `System.alloc` with this layout.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Ends only once every file is refused, with little memory used at any time.
+#[test]
+fn lying_headers_get_no_memory() {
+    let ply = |format: &str, vertices: u64, faces: u64, length: &str, body: &[u8]| {
+        let header = format!(
+            "ply\nformat {format} 1.0\nelement empty 18446744073709551615\nelement vertex {vertices}\n\
+             property float x\nproperty float y\nproperty float z\nelement face {faces}\n\
+             property list {length} int vertex_indices\nend_header\n"
+        );
+        (Format::Ply, [header.as_bytes(), body].concat())
+    };
+    let gltf = |accessor: &str, rest: &str| {
+        let text = format!(
+            r#"{{"asset": {{"version": "2.0"}}, "accessors": [{{"componentType": 5126, "type": "VEC3", {accessor}}}],
+                "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}], {rest}}}"#
+        );
+        (Format::Gltf, text.into_bytes())
+    };
+    let buffer = r#""buffers": [{"byteLength": 4, "uri": "data:;base64,AAAAAA=="}],
+        "bufferViews": [{"buffer": 0, "byteLength": 18446744073709551615}]"#;
+    let stl = [&[0u8; 80][..], &u32::MAX.to_le_bytes(), &[0; 99]].concat();
+    let glb = [
+        &b"glTF"[..],
+        &2u32.to_le_bytes(),
+        &u32::MAX.to_le_bytes(),
+        &(u32::MAX - 99).to_le_bytes(),
+        b"JSON{}",
+    ];
+    let huge = [&[0; 12][..], &(1u32 << 31).to_le_bytes(), &[0; 40]].concat();
+    let files = [
+        ply("binary_little_endian", 4_000_000_000, 1, "uchar", &[0; 100]),
+        ply("binary_big_endian", 1, 4_000_000_000, "uchar", &[0; 100]),
+        ply("binary_little_endian", 1, 1, "uint", &huge),
+        ply("ascii", 4_000_000_000, 1, "uchar", b"0 0 0\n"),
+        ply("ascii", 1, 4_000_000_000, "uchar", b"0 0 0\n3 0 0 0\n"),
+        ply("ascii", 1, 1, "uint", b"0 0 0\n4000000000 0 0 0\n"),
+        (Format::Off, b"OFF 4000000000 1 0\n0 0 0\n".to_vec()),
+        (Format::Off, b"OFF 1 4000000000 0\n0 0 0\n3 0 0 0\n".to_vec()),
+        (Format::Off, b"OFF 1 1 0\n0 0 0\n4000000000 0 0 0\n".to_vec()),
+        (Format::Obj, b"v 0 0 0\nf 1 1 4000000000\n".to_vec()),
+        (Format::Stl, stl),
+        (Format::Glb, glb.concat()),
+        gltf(r#""count": 18446744073709551615, "bufferView": 0"#, buffer),
+        gltf(r#""count": 4000000000, "bufferView": 0"#, buffer),
+        gltf(
+            r#""count": 4000000000, "sparse": {"count": 4000000000,
+            "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}}"#,
+            buffer,
+        ),
+        gltf(r#""count": 1"#, r#""buffers": [{"byteLength": 4000000000, "uri": "data:;base64,AAAA"}]"#),
+    ];
+    for (format, bytes) in files {
+        let before = LIVE.load(Relaxed);
+        PEAK.store(before, Relaxed);
+        let error = read_from_slice(&bytes, format).expect_err("more is promised than is there");
+        let used = PEAK.load(Relaxed) - before;
+        assert!(used < 64 << 10, "{used} bytes for {} bytes of {format:?}: {error}", bytes.len());
+    }
+}
