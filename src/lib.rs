@@ -1,8 +1,10 @@
 //! decimesh: triangle-mesh simplification.
 
 mod collapse;
+#[cfg(feature = "deviation")]
 pub mod deviation;
 pub mod hqms;
+#[cfg(feature = "io")]
 pub mod io;
 pub mod mesh;
 mod monitor;

@@ -48,5 +48,3 @@ impl Workers {
         }
     }
 }
-
-pub(crate) fn tune(name: &str, default: f32) -> f32 { std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default) }

@@ -1,6 +1,8 @@
 //! Mesh files: what is written comes back, what other programs write is understood, and what
 //! nobody should have written is refused.
 
+#![cfg(feature = "io")]
+
 mod io_files;
 
 use std::io::Write;

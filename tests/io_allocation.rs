@@ -1,5 +1,7 @@
 //! What a file promises costs nothing: memory is taken only for what the file really holds.
 
+#![cfg(feature = "io")]
+
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 

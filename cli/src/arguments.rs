@@ -100,7 +100,7 @@ impl TargetArguments {
             Self { max_error: Some(ErrorBound::Share(share)), .. } => {
                 Target::MaxError((share * diagonal) as f32)
             }
-            // The group is required, so this is only reached if clap lets nothing through.
+            // The parser lets nobody come without a target.
             Self { max_error: None, .. } => Target::Ratio(1.0),
         }
     }

@@ -173,13 +173,12 @@ impl Scene {
     fn new(exhibits: &[Exhibit], width: usize) -> Self {
         let turn = Quat::from_rotation_y(YAW);
         let upright = |[x, y, z]: [f32; 3]| turn * vec3a(-y, x, z);
-        let corners = |mesh: &Mesh| -> Vec<Triangle> {
-            let [v0, v1, v2] = [0, 1, 2];
-            let corner = |triangle: &[u32; 3], k: usize| upright(mesh.positions()[triangle[k] as usize]);
-            let triangles = mesh.triangles().iter();
-            triangles.map(|t| Triangle { v0: corner(t, v0), v1: corner(t, v1), v2: corner(t, v2) }).collect()
+        let triangles = |exhibit: &Exhibit| -> Vec<Triangle> {
+            let positions = exhibit.mesh.positions();
+            let corners = exhibit.mesh.triangles().iter().map(|t| t.map(|v| upright(positions[v as usize])));
+            corners.map(|[v0, v1, v2]| Triangle { v0, v1, v2 }).collect()
         };
-        let mut groups: Vec<Vec<Triangle>> = exhibits.iter().map(|exhibit| corners(exhibit.mesh)).collect();
+        let mut groups: Vec<Vec<Triangle>> = exhibits.iter().map(triangles).collect();
         let (low, high) = bounds(groups.first().map_or(&[], Vec::as_slice));
         let scale = 1.0 / (high.y - low.y).max(f32::MIN_POSITIVE);
         let pitch = ((high.x - low.x) * scale * 1.13).max(0.35);

@@ -86,8 +86,7 @@ impl Edge<'_> {
     #[inline(always)]
     fn keeps_topology(&self, neighbours: &mut [Vec<u32>; 2]) -> bool {
         let (source, target) = (self.source, self.target);
-        let touches =
-            |spoke: &&Spoke| (spoke.next == source.vertex) | (spoke.previous == source.vertex);
+        let touches = |spoke: &&Spoke| (spoke.next == source.vertex) | (spoke.previous == source.vertex);
         let shared = target.spokes().iter().filter(touches).count();
         if shared == 0 || shared > 2 {
             return false;

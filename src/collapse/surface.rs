@@ -152,10 +152,8 @@ impl Surface {
                 *degree
             })
         });
-        let starts: Vec<u32> = sums
-            .iter()
-            .scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count)))
-            .collect();
+        let starts: Vec<u32> =
+            sums.iter().scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect();
         offsets[vertices] = sums.iter().sum();
         let pieces = split(&mut offsets[..vertices], (1..ranges).map(bound));
         let rings = split(incidence.as_flattened_mut(), starts.iter().skip(1).map(|&start| start as usize));
@@ -248,8 +246,18 @@ impl Surface {
     /// Drops dead vertices and faces, keeping the order of the others, and ends the pass: no
     /// vertex is used any more. The rings are lost.
     pub(crate) fn compact(&mut self, workers: &Workers) {
-        let Self { positions, faces, flags, errors, attributes, merged, origins, offsets: map, incidence, .. } =
-            self;
+        let Self {
+            positions,
+            faces,
+            flags,
+            errors,
+            attributes,
+            merged,
+            origins,
+            offsets: map,
+            incidence,
+            ..
+        } = self;
         map.clear();
         map.resize(positions.len(), 0);
         let mut kept = 0;
@@ -276,8 +284,13 @@ impl Surface {
         let blocks: Vec<&[Face]> = faces.chunks(FACE_BLOCK).collect();
         let alive = |block: &&[Face]| block.iter().filter(|face| is_alive(face)).count();
         let counts = workers.map(blocks.clone(), |block| alive(&block));
-        let ends: Vec<usize> =
-            counts.iter().scan(0, |sum, count| { *sum += count; Some(*sum) }).collect();
+        let ends: Vec<usize> = counts
+            .iter()
+            .scan(0, |sum, count| {
+                *sum += count;
+                Some(*sum)
+            })
+            .collect();
         let kept = ends.last().copied().unwrap_or(0);
         incidence.resize_with(faces.len(), Face::default);
         let pieces = split(incidence, ends.iter().copied().take(ends.len().saturating_sub(1)));
@@ -306,7 +319,8 @@ impl Surface {
         }
         let unscale = 1.0 / self.scale;
         let mut triangles = Vec::with_capacity(alive().count());
-        triangles.extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
+        triangles
+            .extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
         let mut positions = Vec::with_capacity(used as usize);
         positions.extend(only_used(&self.positions, &map).map(|&position| (position * unscale).to_array()));
         let attributes = Attributes {
@@ -314,7 +328,8 @@ impl Surface {
             colors: self.attributes.colors.as_ref().map(|c| only_used(c, &map).copied().collect()),
             uvs: self.attributes.uvs.as_ref().map(|uv| only_used(uv, &map).copied().collect()),
         };
-        let into = |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
+        let into =
+            |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
         let origins = self.origins.as_ref().map(|origins| origins.iter().map(into).collect());
         Ok((Mesh::with_attributes(positions, triangles, attributes)?, origins))
     }

@@ -82,7 +82,19 @@ impl<'a> Tile<'a> {
         let (faces, offsets, incidence) = (self.faces, self.offsets, self.incidence);
         let first = cut as u32;
         [
-            Self { first: self.first, positions, flags, errors, merged, normals, colors, uvs, faces, offsets, incidence },
+            Self {
+                first: self.first,
+                positions,
+                flags,
+                errors,
+                merged,
+                normals,
+                colors,
+                uvs,
+                faces,
+                offsets,
+                incidence,
+            },
             Self {
                 first,
                 positions: positions_after,
@@ -142,7 +154,8 @@ impl<'a> Tile<'a> {
                 continue;
             }
             let (next, previous) = neighbours(self.faces, corner);
-            let (Some(next_position), Some(previous_position)) = (self.position(next), self.position(previous))
+            let (Some(next_position), Some(previous_position)) =
+                (self.position(next), self.position(previous))
             else {
                 return false;
             };

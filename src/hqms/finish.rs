@@ -11,12 +11,13 @@
 
 use super::goal::{Counts, Goal};
 use crate::collapse::queue::Queue;
-use crate::collapse::ring::Ring;
+use crate::collapse::ring::{Ring, Spoke};
 use crate::collapse::surface::{NONE, Surface, flag, is_alive, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Edge, Rules};
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
+use glam::Vec3;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// Rings with more faces wait until their neighbours have gone: to update them at each collapse
@@ -30,6 +31,22 @@ const BATCH: usize = 1024;
 struct Candidate {
     cost: f32,
     partner: u32,
+}
+
+impl Candidate {
+    /// Costs are not negative, so their bits order as they do.
+    fn order(&self) -> (u32, u32) {
+        (self.cost.to_bits(), self.partner)
+    }
+}
+
+/// What became of an attempt.
+enum Outcome {
+    Done(Counts),
+    /// The rules do not allow it.
+    Illegal,
+    /// It costs this, which is more than it was thought to.
+    Dearer(f32),
 }
 
 const IMPOSSIBLE: Candidate = Candidate { cost: f32::INFINITY, partner: NONE };
@@ -113,16 +130,22 @@ impl<'a> Finish<'a> {
             let left = goal.excess(counts) - goal.measure(removed);
             let candidate = self.candidates[vertex as usize];
             match self.try_collapse(vertex, candidate.partner, goal, left) {
-                Some(of_collapse) => {
+                Outcome::Done(of_collapse) => {
                     removed.add(of_collapse);
                     collapses += 1;
                     if collapses % BATCH == 0 {
                         report(removed)?;
                     }
                 }
-                None => {
+                Outcome::Illegal => {
                     self.gather_neighbours(vertex, &mut around);
                     self.choose(vertex, &around, Some(candidate));
+                }
+                Outcome::Dearer(cost) => {
+                    self.gather_neighbours(vertex, &mut around);
+                    let other = self.cheapest(vertex, &around, Some(candidate), |_, _| {});
+                    let dearer = Candidate { cost, ..candidate };
+                    self.set(vertex, if dearer.order() < other.order() { dearer } else { other });
                 }
             }
         }
@@ -211,20 +234,32 @@ impl<'a> Finish<'a> {
         if cost.is_nan() { f32::INFINITY } else { cost }
     }
 
-    /// Finds the cheapest edge of `vertex` among those to `around`, or the next one after `failed`,
-    /// and puts it in the queue.
-    fn choose(&mut self, vertex: u32, around: &[u32], failed: Option<Candidate>) {
-        let order = |candidate: &Candidate| (candidate.cost.to_bits(), candidate.partner);
+    /// The cheapest edge of `vertex` among those to `around`, or the next one after `failed`; `seen`
+    /// is shown them all.
+    fn cheapest(
+        &self,
+        vertex: u32,
+        around: &[u32],
+        failed: Option<Candidate>,
+        mut seen: impl FnMut(&Self, Candidate),
+    ) -> Candidate {
         let mut best = IMPOSSIBLE;
         if around.len() <= MAX_DEGREE {
             for &partner in around {
                 let candidate = Candidate { cost: self.cost(vertex, partner), partner };
-                let possible = failed.is_none_or(|failed| order(&failed) < order(&candidate));
-                if possible && order(&candidate) < order(&best) {
+                seen(self, candidate);
+                let possible = failed.is_none_or(|failed| failed.order() < candidate.order());
+                if possible && candidate.order() < best.order() {
                     best = candidate;
                 }
             }
         }
+        best
+    }
+
+    /// Puts the cheapest edge of `vertex` in the queue, or the next one after `failed`.
+    fn choose(&mut self, vertex: u32, around: &[u32], failed: Option<Candidate>) {
+        let best = self.cheapest(vertex, around, failed, |_, _| {});
         self.set(vertex, best);
     }
 
@@ -235,18 +270,16 @@ impl<'a> Finish<'a> {
 
     /// Collapses the edge, if the rules allow it and no more than `left` goes (one triangle more
     /// where it must be two), and brings all around up to date.
-    fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal, left: usize) -> Option<Counts> {
+    fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal, left: usize) -> Outcome {
         let (source, target) = if self.is_locked(vertex) { (partner, vertex) } else { (vertex, partner) };
         let mut scratch = std::mem::take(&mut self.scratch);
         self.gather(source, &mut scratch.source, &mut scratch.source_corners);
         self.gather(target, &mut scratch.target, &mut scratch.target_corners);
-        let outcome = self.collapse_gathered(source, target, goal, left, &mut scratch);
-        let mut removed = match outcome {
-            None => {
-                self.scratch = scratch;
-                return None;
-            }
-            Some(faces) => Counts { faces, vertices: 1 },
+        let price = self.candidates[vertex as usize].cost;
+        let outcome = self.collapse_gathered([source, target], price, goal, left, &mut scratch);
+        let Outcome::Done(mut removed) = outcome else {
+            self.scratch = scratch;
+            return outcome;
         };
         scratch.source.neighbours(&mut scratch.neighbours[0]);
         scratch.target.neighbours(&mut scratch.neighbours[1]);
@@ -270,17 +303,17 @@ impl<'a> Finish<'a> {
         });
         self.update(&around);
         self.scratch.neighbours[0] = around;
-        Some(removed)
+        Outcome::Done(removed)
     }
 
     fn collapse_gathered(
         &mut self,
-        source: u32,
-        target: u32,
+        [source, target]: [u32; 2],
+        price: f32,
         goal: Goal,
         left: usize,
         scratch: &mut Scratch,
-    ) -> Option<usize> {
+    ) -> Outcome {
         let Scratch { source: source_ring, target: target_ring, source_corners, target_corners, neighbours } =
             scratch;
         let (from, into) = (source as usize, target as usize);
@@ -293,23 +326,47 @@ impl<'a> Finish<'a> {
             target_locked: self.is_locked(target),
             error: errors[from].max(errors[into]),
         };
-        let collapse = edge.collapse(self.rules, neighbours)?;
-        // Faces of the two rings that come to lie on each other.
+        let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
         let mut doomed = Vec::new();
         if self.rules.any_topology {
-            doomed = self.coincident(source_ring, target_ring, source_corners, target_corners)?;
+            match self.coincident(source_ring, target_ring, source_corners, target_corners) {
+                Some(faces) => doomed = faces,
+                None => return Outcome::Illegal,
+            }
         }
-        let shared = |spoke: &&crate::collapse::ring::Spoke| spoke.next == target || spoke.previous == target;
-        let faces = source_ring.spokes().iter().filter(shared).count() + doomed.len();
+        let touches = |spoke: &&Spoke| spoke.next == target || spoke.previous == target;
+        let faces = source_ring.spokes().iter().filter(touches).count() + doomed.len();
         // The last collapse may take one face too many, not more.
         if matches!(goal, Goal::Faces(_)) && faces > left + 1 {
-            return None;
+            return Outcome::Illegal;
+        }
+        let loss = self.loss(&doomed, collapse.position, [source, target]);
+        if loss > price {
+            return Outcome::Dearer(loss);
         }
         for face in doomed {
             self.kill(face);
         }
         self.execute(source, target, &collapse, source_corners);
-        Some(faces)
+        Outcome::Done(Counts { faces, vertices: 1 })
+    }
+
+    /// What it costs that faces vanish: the sum over them of the squared distance to what is left,
+    /// taken to be their edge away from the collapsed one. No quadric knows this: two faces that
+    /// come to lie on each other are on the same plane, however far they reach.
+    fn loss(&self, doomed: &[u32], position: Vec3, collapsed: [u32; 2]) -> f32 {
+        let of_face = |&face: &u32| {
+            let corners = self.surface.faces[face as usize].each_ref().map(|corner| corner.load(Relaxed));
+            let [a, b, c] = corners.map(|vertex| {
+                if collapsed.contains(&vertex) { position } else { self.surface.positions[vertex as usize] }
+            });
+            let longest =
+                (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+            // The mean squared distance of a triangle's points from one of its edges is a sixth of
+            // its squared height.
+            (b - a).cross(c - a).length() * longest / 12.0
+        };
+        doomed.iter().map(of_face).sum()
     }
 
     /// Whether the collapse leaves every edge with at most two faces, or as many as it had; and
@@ -415,24 +472,23 @@ impl<'a> Finish<'a> {
         let mut beyond = Vec::new();
         for &vertex in around {
             self.gather_neighbours(vertex, &mut ring);
-            self.choose(vertex, &ring, None);
-            for &outer in ring.iter().filter(|&&outer| self.changed[outer as usize] != self.stamp) {
-                beyond.push((outer, vertex));
-            }
+            let best = self.cheapest(vertex, &ring, None, |finish, candidate| {
+                if finish.changed[candidate.partner as usize] != finish.stamp {
+                    beyond.push((candidate.partner, Candidate { partner: vertex, ..candidate }));
+                }
+            });
+            self.set(vertex, best);
         }
-        for (outer, vertex) in beyond {
-            if self.changed[outer as usize] == self.stamp {
-                continue;
-            }
-            let cost = self.cost(outer, vertex);
-            let candidate = self.candidates[outer as usize];
-            let led_here = self.changed.get(candidate.partner as usize) == Some(&self.stamp);
-            if led_here || self.surface.flags.get(candidate.partner as usize).is_some_and(|f| f & flag::DEAD != 0) {
+        for (outer, candidate) in beyond {
+            let partner = self.candidates[outer as usize].partner;
+            let led_here = partner != NONE
+                && (self.changed[partner as usize] == self.stamp
+                    || self.surface.flags[partner as usize] & flag::DEAD != 0);
+            if led_here {
                 self.gather_neighbours(outer, &mut ring);
                 self.choose(outer, &ring, None);
-                self.changed[outer as usize] = self.stamp;
-            } else if cost < candidate.cost {
-                self.set(outer, Candidate { cost, partner: vertex });
+            } else if candidate.order() < self.candidates[outer as usize].order() {
+                self.set(outer, candidate);
             }
         }
     }

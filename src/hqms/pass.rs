@@ -23,6 +23,10 @@ const BATCH: usize = 32;
 /// A share of the vertices below which a pass is slow: tiles are then given up, in case it is
 /// their borders that hold the rest.
 const SLOW: f32 = 0.02;
+/// The most by which a threshold rises after a productive pass, and the share of the vertices that
+/// such a pass removes. On scans costs rise by 4 to 8 a pass.
+const RISE: f32 = 16.0;
+const PRODUCTIVE: f32 = 0.1;
 /// No vertex has this cost: the bits of costs are below it.
 const UNUSABLE: u32 = u32::MAX;
 
@@ -32,8 +36,10 @@ pub(crate) struct Threshold {
     /// Collapses of the last pass as a share of those below its threshold.
     yielded: f32,
     slow: bool,
-    productive: bool,
+    /// The bits of the last threshold, and whether its pass removed enough that more may be found
+    /// near it.
     threshold: u32,
+    productive: bool,
 }
 
 impl Threshold {
@@ -54,16 +60,14 @@ impl Threshold {
         let vertices = surface.positions.len();
         // Far from the goal a coarser order does: what is taken too early here would be taken
         // later anyway.
-        let far = goal.ratio(counts).is_some_and(|ratio| ratio > crate::workers::tune("FAR",4.0));
-        let share = if far { crate::workers::tune("Q2",0.8) } else { crate::workers::tune("Q1",0.5) };
+        let far = goal.ratio(counts).is_some_and(|ratio| ratio > 4.0);
+        let share = if far { 0.8 } else { 0.3 };
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
         let samples = sample(surface, wanted < 0.1, workers);
-        let usable = samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
+        let usable =
+            samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
         let quantile = f32::min(share * usable, 0.8 * wanted / self.yielded.max(0.5));
-        let mut threshold = threshold(&samples, quantile);
-        let limit = crate::workers::tune("GROW", 16.0);
-        if self.productive { threshold = threshold.min((f32::from_bits(self.threshold)*limit).to_bits()); }
-        self.threshold = threshold;
+        let threshold = self.restrain(threshold(&samples, quantile));
         let single = vertices < 2 * TILE || self.slow;
         let shift = if self.passes % 2 == 1 { TILE / 2 } else { 0 };
         let cuts = (1..).map(|tile| tile * TILE - shift).take_while(|&cut| !single && cut < vertices);
@@ -81,10 +85,18 @@ impl Threshold {
         let share = removed.vertices as f32 / vertices as f32;
         self.yielded = (share / quantile).clamp(0.05, 0.7);
         self.slow = share < SLOW;
-        self.productive = share > crate::workers::tune("PROD", 0.1);
-        if std::env::var("V").is_ok() { eprintln!("v {vertices} f {} removed {removed:?} share {share} q {quantile} usable {usable} th {:e} y {}", counts.faces, f32::from_bits(threshold), self.yielded); }
+        self.threshold = threshold;
+        self.productive = share > PRODUCTIVE;
         self.passes += 1;
         Ok(removed)
+    }
+
+    /// A threshold rises slowly while passes are productive. On a solid of flat faces a quantile
+    /// would climb into the edges while half the faces can still be had for nothing, as each pass
+    /// leaves a half over.
+    fn restrain(&self, threshold: u32) -> u32 {
+        let highest = f32::from_bits(self.threshold) * RISE;
+        if self.productive { threshold.min(highest.to_bits()) } else { threshold }
     }
 }
 
@@ -133,7 +145,8 @@ fn budgets(tiles: &[Tile], samples: &[(u32, u32)], threshold: u32, goal: Goal, e
     if let [_] = tiles {
         return vec![excess];
     }
-    let mut chosen = samples.iter().filter(|(_, cost)| *cost < threshold).map(|(vertex, _)| *vertex).peekable();
+    let mut chosen =
+        samples.iter().filter(|(_, cost)| *cost < threshold).map(|(vertex, _)| *vertex).peekable();
     let weights: Vec<f64> = tiles
         .iter()
         .map(|tile| {

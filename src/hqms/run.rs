@@ -6,7 +6,7 @@ use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
 use super::{Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, replacement};
 use crate::collapse::Rules;
-use crate::collapse::surface::{Snapshot, Surface};
+use crate::collapse::surface::Surface;
 use crate::mesh::Mesh;
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
@@ -14,7 +14,14 @@ use crate::workers::Workers;
 /// The finish begins when the surface is this many times larger than the goal...
 const FINISH_RATIO: f32 = 1.5;
 /// ...and has at most so many vertices: its heap takes ten times as long as a pass.
-const FINISH_VERTICES: usize = 50_000;
+const FINISH_VERTICES: usize = 12_000;
+/// So few vertices are finished however far the goal is.
+const FEW_VERTICES: usize = 1000;
+/// A run may have to come back to where the surface was this many times larger than the goal.
+const STUCK_RATIO: f32 = 10.0;
+/// At more vertices than this, the way back is not kept: it takes memory, and so large a surface
+/// does not get stuck before its end.
+const STUCK_VERTICES: usize = 50_000;
 /// Below this share of its vertices to remove, a surface that is too large for the finish ends
 /// with a ranked pass.
 const RANKED_SHARE: f32 = 0.05;
@@ -56,7 +63,11 @@ impl<'a> Run<'a> {
     }
 
     /// Goes on until `target` is met, or cannot be.
-    pub(crate) fn reach(&mut self, target: Target, monitor: &mut Monitor) -> Result<StoppedBy, SimplifyError> {
+    pub(crate) fn reach(
+        &mut self,
+        target: Target,
+        monitor: &mut Monitor,
+    ) -> Result<StoppedBy, SimplifyError> {
         check_target(target)?;
         let goal = Goal::new(target, self.input);
         let error_limit = match target {
@@ -67,8 +78,13 @@ impl<'a> Run<'a> {
         let start = self.counts;
         let mut report = |counts: Counts| monitor.report(progress(goal, start, counts));
         report(self.counts)?;
+        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
+        let mut checkpoint = None;
         let mut stalled = false;
         while goal.excess(self.counts) > 0 && !stalled && !self.is_near(goal) {
+            if may_relax && checkpoint.is_none() && self.may_get_stuck(goal) {
+                checkpoint = Some((self.surface.snapshot(), self.counts));
+            }
             let removed = self.pass(goal, &rules, &mut report)?;
             stalled = (removed.vertices as f32) < STALLED * self.surface.positions.len() as f32;
             self.surface.compact(&self.workers);
@@ -77,8 +93,19 @@ impl<'a> Run<'a> {
             report(self.counts)?;
             self.surface.build_rings(&self.workers);
         }
-        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= FINISH_VERTICES) {
-            self.finish(goal, rules, &mut report)?;
+        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= STUCK_VERTICES) {
+            if may_relax && checkpoint.is_none() {
+                checkpoint = Some((self.surface.snapshot(), self.counts));
+            }
+            self.finish(goal, &rules, &mut report)?;
+            if goal.excess(self.counts) > 0
+                && let Some((snapshot, counts)) = checkpoint
+            {
+                self.surface.restore(snapshot);
+                self.counts = counts;
+                self.topology_changed = true;
+                self.finish(goal, &Rules { any_topology: true, ..rules }, &mut report)?;
+            }
             self.surface.build_rings(&self.workers);
         }
         monitor.report(1.0)?;
@@ -91,8 +118,9 @@ impl<'a> Run<'a> {
 
     /// Whether what is left is for the finish.
     fn is_near(&self, goal: Goal) -> bool {
-        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= crate::workers::tune("FR",FINISH_RATIO));
-        near && self.counts.vertices <= crate::workers::tune("FV",FINISH_VERTICES as f32) as usize
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
+        let vertices = self.counts.vertices;
+        vertices <= FEW_VERTICES || near && vertices <= FINISH_VERTICES
     }
 
     fn pass(
@@ -123,30 +151,15 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The heap; and, where it is stuck and the topology may change, the heap once more from where
-    /// it began, without the link condition. From where it began, because what the condition does
-    /// last is to ruin large parts for the sake of tiny ones.
-    fn finish(
-        &mut self,
-        goal: Goal,
-        rules: Rules,
-        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
-    ) -> Result<(), Cancelled> {
-        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
-        let before: Option<(Snapshot, Counts)> = may_relax.then(|| (self.surface.snapshot(), self.counts));
-        self.finish_once(goal, &rules, report)?;
-        if let Some((snapshot, counts)) = before
-            && goal.excess(self.counts) > 0
-        {
-            self.surface.restore(snapshot);
-            self.counts = counts;
-            self.topology_changed = true;
-            self.finish_once(goal, &Rules { any_topology: true, ..rules }, report)?;
-        }
-        Ok(())
+    /// Whether the surface is so small that the goal may be below what its topology allows. What
+    /// the link condition does last is to ruin large parts for the sake of tiny ones: a run that
+    /// then gives the condition up has to go back to before that.
+    fn may_get_stuck(&self, goal: Goal) -> bool {
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= STUCK_RATIO);
+        near && self.counts.vertices <= STUCK_VERTICES.min(self.input.positions().len() / 3)
     }
 
-    fn finish_once(
+    fn finish(
         &mut self,
         goal: Goal,
         rules: &Rules,

@@ -6,7 +6,7 @@
 //! | OBJ | exact | yes | yes, without alpha | yes | text |
 //! | STL | exact positions, no sharing | no | no | no | binary, ASCII |
 //! | OFF | exact | yes | yes | yes | text |
-//! | glTF, GLB | exact, of used vertices | yes | yes | yes | JSON with base64, binary |
+//! | glTF, GLB | exact, unless there is no triangle | yes | yes | yes | JSON with base64, binary |
 //!
 //! Reading, in every format:
 //! - Polygons become fans around their first corner; those of fewer than three corners are dropped.
@@ -23,7 +23,12 @@
 //!   their nodes' transforms; without any scene, all meshes once, as they are. Skins and morph
 //!   targets are at rest: what a skinned node shows is its mesh, untransformed.
 //!
-//! No file makes reading panic, or reserve more memory than in proportion to its own size.
+//! No file makes reading panic, or take more memory than in proportion to its size. A glTF scene that
+//! repeats its meshes may mean 4 million vertices and corners, or 64 for each byte of its buffers,
+//! whichever is more; what means more is refused.
+//!
+//! Writing glTF turns the texture coordinates' v over, as reading does, which may round its last bit;
+//! a mesh without triangles becomes a document without a mesh.
 
 mod gltf;
 mod obj;

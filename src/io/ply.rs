@@ -316,7 +316,9 @@ fn read_elements<'a, V: Values<'a>>(values: &mut V, elements: &[Element]) -> Res
                 read_lists(values, element, |rows, length, item| {
                     let mut fan = Fan::default();
                     for _ in 0..length {
-                        faces.extend(fan.push(index(rows.next(item)?, vertices, rows)?));
+                        if let Some(triangle) = fan.push(index(rows.next(item)?, vertices, rows)?) {
+                            faces.push(triangle);
+                        }
                     }
                     Ok(())
                 })?;

@@ -77,13 +77,20 @@ impl<'a> Source<'a> {
     /// The next `count` bytes. Meant for small counts: they are buffered whole.
     #[inline]
     pub(super) fn take(&mut self, count: usize) -> Result<&[u8], ReadError> {
-        if self.end - self.start < count && !self.fill(count)? {
-            return Err(self.error_here("the file ends here"));
+        if self.end - self.start < count {
+            self.refill(count)?;
         }
         let start = self.start;
         self.start += count;
         self.offset += count as u64;
         Ok(&self.buffer[start..self.start])
+    }
+
+    /// Kept out of [`take`](Self::take), which is called for every number of a file.
+    #[cold]
+    #[inline(never)]
+    fn refill(&mut self, count: usize) -> Result<(), ReadError> {
+        if self.fill(count)? { Ok(()) } else { Err(self.error_here("the file ends here")) }
     }
 
     pub(super) fn skip(&mut self, count: u64) -> Result<(), ReadError> {

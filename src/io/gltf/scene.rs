@@ -15,7 +15,7 @@ use crate::io::{Fan, ReadError, Strip, finish};
 use crate::mesh::{Attributes, Mesh};
 
 /// A scene may show one mesh any number of times, so a small file can describe a mesh of any size.
-/// Up to this many vertices or triangles it may always, ...
+/// Up to this many vertices and corners it may always, ...
 const ALWAYS_ALLOWED: usize = 1 << 22;
 /// ... and up to this many for each byte of its buffers.
 const ALLOWED_PER_BYTE: usize = 64;
@@ -93,6 +93,7 @@ fn local(node: &Node) -> DMat4 {
 struct Collector<'a> {
     document: &'a Document,
     limit: usize,
+    spent: usize,
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     /// Shorter than `positions` where the last primitives have none.
@@ -114,6 +115,7 @@ impl<'a> Collector<'a> {
         Self {
             document,
             limit,
+            spent: 0,
             positions: Vec::new(),
             triangles: Vec::new(),
             normals: Vec::new(),
@@ -130,6 +132,7 @@ impl<'a> Collector<'a> {
         };
         let mut shared = Shared::new();
         for (index, primitive) in mesh.primitives.iter().enumerate() {
+            self.spend(1)?;
             self.add_primitive(primitive, instance.transform, &mut shared)
                 .map_err(|error| error.within(format_args!("{object}.primitives[{index}]")))?;
         }
@@ -157,15 +160,15 @@ impl<'a> Collector<'a> {
             None => {
                 let first = self.positions.len();
                 let count = self.document.count(position)?;
-                self.check_growth(first, count, "vertices")?;
+                self.spend(count)?;
                 self.add_vertices(position, accessors, count, transform)?;
                 shared.insert(key, (first, count));
                 (first, count)
             }
         };
+        let corners = primitive.indices.map_or(Ok(count), |indices| self.document.count(indices))?;
+        self.spend(corners)?;
         let indices = primitive.indices.map(|indices| self.document.indices(indices)).transpose()?;
-        let corners = indices.as_ref().map_or(count, Vec::len);
-        self.check_growth(self.triangles.len(), corners, "triangles")?;
         if let Some(at) = indices.iter().flatten().position(|&index| index as usize >= count) {
             let index = indices.as_ref().map_or(0, |indices| indices[at]);
             let problem = format!("index {index} at place {at}, but there are {count} vertices");
@@ -175,7 +178,7 @@ impl<'a> Collector<'a> {
             let problem = format!("{corners} indices do not make whole triangles");
             return Err(ReadError::in_object("indices", problem));
         }
-        // Below the limit, and so within 32 bits: `check_growth` saw to it.
+        // What does not fit 32 bits is refused when the mesh is built: no mesh has as many.
         let corner = |at: usize| (first + indices.as_ref().map_or(at, |indices| indices[at] as usize)) as u32;
         let start = self.triangles.len();
         match mode {
@@ -198,11 +201,13 @@ impl<'a> Collector<'a> {
         Ok(())
     }
 
-    fn check_growth(&self, present: usize, more: usize, what: &str) -> Result<(), ReadError> {
-        let total = present.saturating_add(more);
-        if total > self.limit.min(u32::MAX as usize) {
+    /// Counts vertices, corners and primitives, and refuses more of them than the file can mean.
+    fn spend(&mut self, more: usize) -> Result<(), ReadError> {
+        self.spent = self.spent.saturating_add(more);
+        if self.spent > self.limit {
             return Err(ReadError::Unsupported(format!(
-                "a scene of {total} or more {what} out of {} bytes",
+                "a scene of more than {} vertices and corners out of {} bytes",
+                self.limit,
                 self.document.bytes()
             )));
         }
