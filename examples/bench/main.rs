@@ -96,7 +96,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     allocation::count_meshoptimizer();
     let contenders = Contender::all(&arguments.threads);
     let setting = report::setting();
-    report::print_setting(&setting, arguments.runs);
+    report::print_setting(&setting);
     let records = if arguments.scaling {
         scaling(arguments, &contenders)?
     } else {
@@ -111,6 +111,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 }
 
 fn comparisons(arguments: &Arguments, contenders: &[Contender]) -> Result<Vec<Value>, Box<dyn Error>> {
+    report::print_legend(arguments.runs);
     let mut records = Vec::new();
     let mut compare = |name: &str, mesh: &Mesh| -> Result<(), Box<dyn Error>> {
         for wish in &arguments.targets {

@@ -36,7 +36,7 @@ fn processor() -> Option<String> {
     line.split_once(':').map(|(_, name)| name.trim().to_owned())
 }
 
-pub(crate) fn print_setting(setting: &Value, runs: usize) {
+pub(crate) fn print_setting(setting: &Value) {
     let text = |key: &str| match &setting[key] {
         Value::String(text) => text.clone(),
         Value::Null => "unknown".to_owned(),
@@ -53,6 +53,9 @@ pub(crate) fn print_setting(setting: &Value, runs: usize) {
     if cfg!(debug_assertions) {
         println!("NOT OPTIMIZED: run with --release, these times mean nothing");
     }
+}
+
+pub(crate) fn print_legend(runs: usize) {
     println!(
         "Times are of {runs} runs, contenders in turns. x update: the median of the rounds' ratios to the\n\
          time of {}. Mtri/s: input triangles in the median time. B/tri: peak of what\n\
@@ -112,7 +115,7 @@ pub(crate) fn comparison(case: &Case, measurements: &[Measurement]) -> Result<Ve
             "max_of_diagonal": max,
         }));
     }
-    println!("{table}\n");
+    println!("{table}");
     Ok(records)
 }
 
