@@ -41,10 +41,16 @@ bare_core() {
     cargo clippy --locked --no-default-features -- -D warnings
 }
 
+# The command first: its pages lie where the library's of the same name go.
+documentation() {
+    cargo doc --locked --no-deps -p decimesh-cli
+    cargo doc --locked --no-deps --all-features -p decimesh
+}
+
 # A user's first hour: the picture, a smaller mesh, how far it is from the large one, what is in it.
 command_line() {
     local demo=$work/demo
-    decimesh() { "${CARGO_TARGET_DIR:-target}/debug/decimesh" "$@"; }
+    decimesh() { cargo run --locked --quiet --release -p decimesh-cli -- "$@"; }
     decimesh demo "$demo" --triangles 50000 --width 600 --quiet
     [ -n "$(find "$demo" -name '*.png' -size +1k)" ]
     decimesh simplify "$demo/statue.ply" "$work/small.obj" --triangles 2000 --verify --quiet
@@ -55,8 +61,8 @@ command_line() {
 step "formatting" cargo fmt --all --check
 step "lints" lint
 step "lints of the bare core" bare_core
-step "documentation" cargo doc --locked --workspace --no-deps
-step "build" cargo test --locked --workspace --no-run
+step "documentation" documentation
+step "release build of the command" cargo build --locked --release -p decimesh-cli
 step "the command on a mesh of its own" command_line
 step "tests" cargo test --locked --workspace
 echo "all checks passed in $SECONDS s"
