@@ -1,8 +1,8 @@
 //! The mesh while it is being simplified: the one mutable copy, in few bytes.
 //!
 //! Per vertex 12 bytes of position, 4 of error, 1 of flags and 4 of offsets; per face 12 bytes of
-//! corners and 12 of incidence: about 36 bytes a triangle of a closed mesh. Offsets and incidence
-//! (the rings) serve a second time as the map and the target of [`Surface::compact`].
+//! corners and 12 of incidence: about 35 bytes a triangle of a closed mesh. Offsets serve a second
+//! time as the map of [`Surface::compact`].
 
 use super::tile::Tile;
 use crate::mesh::{Attributes, Mesh, MeshError};
@@ -259,12 +259,14 @@ impl Surface {
             ..
         } = self;
         map.clear();
-        map.resize(positions.len(), 0);
+        map.reserve(positions.len());
         let mut kept = 0;
-        for (successor, flags) in map.iter_mut().zip(&*flags) {
-            *successor = if flags & flag::DEAD == 0 { kept } else { NONE };
-            kept += u32::from(flags & flag::DEAD == 0);
-        }
+        map.extend(flags.iter().map(|flags| {
+            let dead = flags & flag::DEAD != 0;
+            let successor = if dead { NONE } else { kept };
+            kept += u32::from(!dead);
+            successor
+        }));
         if let Some(origins) = origins {
             for origin in origins.iter_mut().filter(|origin| **origin != NONE) {
                 *origin = last_merged(merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
@@ -281,29 +283,17 @@ impl Surface {
         flags.retain(|flags| flags & flag::DEAD == 0);
         flags.iter_mut().for_each(|flags| *flags &= !flag::USED);
 
-        let blocks: Vec<&[Face]> = faces.chunks(FACE_BLOCK).collect();
-        let alive = |block: &&[Face]| block.iter().filter(|face| is_alive(face)).count();
-        let counts = workers.map(blocks.clone(), |block| alive(&block));
-        let ends: Vec<usize> = counts
-            .iter()
-            .scan(0, |sum, count| {
-                *sum += count;
-                Some(*sum)
-            })
-            .collect();
-        let kept = ends.last().copied().unwrap_or(0);
-        incidence.resize_with(faces.len(), Face::default);
-        let pieces = split(incidence, ends.iter().copied().take(ends.len().saturating_sub(1)));
+        // Blocks of faces are packed in place side by side, and then moved together.
         let map = &map[..];
-        workers.map(blocks.into_iter().zip(pieces).collect(), |(block, into): (&[Face], &mut [Face])| {
-            for (face, into) in block.iter().filter(|face| is_alive(face)).zip(into) {
-                for (corner, into) in face.iter().zip(into) {
-                    *into.get_mut() = map[corner.load(Relaxed) as usize];
-                }
+        let counts = workers.map(faces.chunks_mut(FACE_BLOCK).collect(), |block| pack_faces(block, map));
+        let mut kept = 0;
+        for (index, count) in counts.into_iter().enumerate() {
+            for face in 0..count {
+                faces.swap(kept + face, index * FACE_BLOCK + face);
             }
-        });
-        incidence.truncate(kept);
-        std::mem::swap(faces, incidence);
+            kept += count;
+        }
+        faces.truncate(kept);
     }
 
     /// The surface as a mesh in the scale of the input, without vertices that no face uses; and for
@@ -365,6 +355,20 @@ impl Surface {
         self.offsets = Vec::new();
         self.incidence = Vec::new();
     }
+}
+
+/// Moves the living faces of a block to its front, their corners renamed by `map`: how many.
+fn pack_faces(block: &mut [Face], map: &[u32]) -> usize {
+    let mut kept = 0;
+    for index in 0..block.len() {
+        let [a, b, c] = block[index].each_ref().map(|corner| corner.load(Relaxed));
+        // Written always and counted if alive: as fast as the memory, where a branch would miss.
+        for (corner, into) in [a, b, c].into_iter().zip(&mut block[kept]) {
+            *into.get_mut() = map[corner as usize];
+        }
+        kept += usize::from(a != b);
+    }
+    kept
 }
 
 /// Whether a face has not been collapsed.

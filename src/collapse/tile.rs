@@ -120,6 +120,13 @@ impl<'a> Tile<'a> {
         self.flags[(vertex - self.first) as usize]
     }
 
+    /// Whether `vertex` lies in the tile and has not been part of a collapse.
+    #[inline(always)]
+    pub(crate) fn is_unused(&self, vertex: u32) -> bool {
+        let flags = self.flags.get(vertex.wrapping_sub(self.first) as usize);
+        flags.is_some_and(|flags| flags & (flag::USED | flag::DEAD) == 0)
+    }
+
     pub(crate) fn unblock(&mut self, vertex: u32) {
         self.flags[(vertex - self.first) as usize] &= !flag::BLOCKED;
     }

@@ -172,8 +172,17 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
         }
         let Some((cost, neighbour)) = cost(tile, vertex, 0, &mut scratch) else { continue };
         tile.unblock(vertex);
-        if cost < threshold
-            && let Some(faces) = tile.collapse(neighbour, rules, &mut scratch)
+        if cost >= threshold {
+            continue;
+        }
+        let target = if tile.is_unused(neighbour) {
+            Some(neighbour)
+        } else {
+            let second = scratch.source.cheapest_neighbour(|neighbour| tile.is_unused(neighbour));
+            second.filter(|(cost, _)| cost.to_bits() < threshold).map(|(_, neighbour)| neighbour)
+        };
+        if let Some(target) = target
+            && let Some(faces) = tile.collapse(target, rules, &mut scratch)
         {
             removed.add(Counts { faces, vertices: 1 });
         }
