@@ -11,6 +11,13 @@ mod monitor;
 mod quadric;
 mod workers;
 
+/// For benches/stages.rs alone.
+#[cfg(feature = "bench-internals")]
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::hqms::stages::Stages;
+}
+
 pub use hqms::{Options, Selection, Simplified, StoppedBy, Target, Topology, simplify};
 pub use mesh::{Attributes, Mesh, MeshError};
 pub use monitor::{Cancelled, Monitor};

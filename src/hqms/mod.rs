@@ -6,6 +6,8 @@ mod order;
 mod pass;
 mod replacement;
 mod run;
+#[cfg(feature = "bench-internals")]
+pub(crate) mod stages;
 
 use crate::mesh::{Mesh, MeshError};
 use crate::monitor::{Cancelled, Monitor};

@@ -1,0 +1,96 @@
+//! The stages of a run, one at a time, so that benches can tell where the time goes.
+//!
+//! Not part of the API: only with the feature `bench-internals`, and free to change with the engine.
+
+use super::finish::Finish;
+use super::goal::{Counts, Goal};
+use super::order::rank;
+use super::pass::{TILE, Threshold, ranked_pass};
+use super::{Target, replacement};
+use crate::collapse::Rules;
+use crate::collapse::surface::Surface;
+use crate::mesh::Mesh;
+use crate::monitor::Cancelled;
+use crate::workers::Workers;
+
+const RULES: Rules = Rules { any_topology: false, error_limit: f32::INFINITY };
+
+/// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`], then for
+/// each pass [`Stages::build_rings`], [`Stages::classify`] (in the first pass only), one of the passes
+/// and [`Stages::compact`]; in the end [`Stages::finish`] and [`Stages::to_mesh`].
+pub struct Stages {
+    surface: Surface,
+    counts: Counts,
+    goal: Goal,
+    workers: Workers,
+    threshold: Threshold,
+}
+
+impl Stages {
+    /// Copies `mesh` into working form, in a coherent order, on its way to `ratio` of its triangles.
+    pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Self {
+        let rank = rank(mesh, TILE / 8);
+        let surface = Surface::new(mesh, rank.as_deref(), &[], false);
+        Self {
+            counts: Counts { faces: surface.faces.len(), vertices: surface.positions.len() },
+            surface,
+            goal: Goal::new(Target::Ratio(ratio), mesh),
+            workers: Workers::new(threads),
+            threshold: Threshold::new(),
+        }
+    }
+
+    /// Triangles that are left.
+    pub fn triangles(&self) -> usize {
+        self.counts.faces
+    }
+
+    /// Finds the faces around each vertex.
+    pub fn build_rings(&mut self) {
+        self.surface.build_rings(&self.workers);
+    }
+
+    /// Finds the border. Needs the rings.
+    pub fn classify(&mut self) {
+        self.counts.vertices -= self.surface.classify(false, &self.workers);
+    }
+
+    /// One pass of the default selection. Needs the rings.
+    pub fn threshold_pass(&mut self) -> Result<(), Cancelled> {
+        let Self { surface, counts, goal, workers, threshold } = self;
+        let removed = threshold.pass(surface, *counts, *goal, &RULES, workers, &mut |_| Ok(()))?;
+        counts.remove(removed);
+        Ok(())
+    }
+
+    /// One pass that takes the cheapest collapses in their order. Needs the rings.
+    pub fn ranked_pass(&mut self) {
+        let removed = ranked_pass(&mut self.surface, self.counts, self.goal, &RULES, &self.workers);
+        self.counts.remove(removed);
+    }
+
+    /// One pass of the paper's replacement selection. Needs the rings.
+    pub fn replacement_pass(&mut self, records: usize) -> Result<(), Cancelled> {
+        let Self { surface, counts, goal, .. } = self;
+        let removed = replacement::pass(surface, records, *counts, *goal, &RULES, &mut |_| Ok(()))?;
+        counts.remove(removed);
+        Ok(())
+    }
+
+    /// Drops what a pass has removed.
+    pub fn compact(&mut self) {
+        self.surface.compact(&self.workers);
+    }
+
+    /// The heap, down to the goal.
+    pub fn finish(&mut self) -> Result<(), Cancelled> {
+        let removed = Finish::new(&mut self.surface, &RULES).run(self.counts, self.goal, &mut |_| Ok(()))?;
+        self.counts.remove(removed);
+        Ok(())
+    }
+
+    /// The mesh as it is now.
+    pub fn to_mesh(&self) -> Result<Mesh, crate::MeshError> {
+        self.surface.to_mesh().map(|(mesh, _)| mesh)
+    }
+}
