@@ -121,9 +121,8 @@ impl Edge<'_> {
     #[inline(always)]
     fn joins_faces(&self) -> bool {
         let source = self.source.vertex;
-        let names = |ring: &'_ Ring| ring.next().iter().copied().zip(ring.previous().iter().copied());
         let mut opposite = [source; 2];
-        for (next, previous) in names(self.target) {
+        for (next, previous) in self.target.names() {
             if next == source {
                 opposite[0] = previous;
             } else if previous == source {
@@ -131,7 +130,7 @@ impl Edge<'_> {
             }
         }
         let [a, b] = opposite;
-        let spans = |ring| names(ring).any(|pair| pair == (a, b) || pair == (b, a));
+        let spans = |ring: &Ring| ring.names().any(|pair| pair == (a, b) || pair == (b, a));
         spans(self.source) && spans(self.target)
     }
 }
@@ -147,7 +146,7 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
     let mut distance_squared = 0f32;
     let mut folded = false;
     let narrowest = LINE * LINE * offset.length_squared();
-    for ((&next, &previous), spoke) in ring.next().iter().zip(ring.previous()).zip(ring.spokes()) {
+    for ((next, previous), spoke) in ring.names().zip(ring.spokes()) {
         let opposite = spoke.to_next - spoke.to_previous;
         let before = spoke.cross;
         let after = before + offset.cross(opposite);

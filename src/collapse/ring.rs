@@ -113,6 +113,12 @@ impl Ring {
         &self.previous[..self.count]
     }
 
+    /// Both, face by face.
+    #[inline(always)]
+    pub(crate) fn names(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.next().iter().copied().zip(self.previous().iter().copied())
+    }
+
     /// In how many faces `vertex` comes after the ring's, and in how many before.
     #[inline(always)]
     pub(crate) fn occurrences(&self, vertex: u32) -> (u32, u32) {
@@ -130,7 +136,7 @@ impl Ring {
     /// Calls `see` with every edge to the vertex that has not two faces of one orientation (borders,
     /// non-manifold edges, and edges where the orientation changes), and with each of its faces.
     fn visit_borders(&self, mut see: impl FnMut(Vec3A, &Spoke)) {
-        for ((&next, &previous), spoke) in self.next().iter().zip(self.previous()).zip(self.spokes()) {
+        for ((next, previous), spoke) in self.names().zip(self.spokes()) {
             for (neighbour, edge) in [(next, spoke.to_next), (previous, spoke.to_previous)] {
                 if self.occurrences(neighbour) != (1, 1) {
                     see(edge, spoke);

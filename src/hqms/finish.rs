@@ -413,8 +413,7 @@ impl<'a> Finish<'a> {
     fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
         let mut scratch = std::mem::take(&mut self.scratch);
         self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
-        let names: Vec<[u32; 2]> =
-            scratch.source.next().iter().zip(scratch.source.previous()).map(|(&a, &b)| [a, b]).collect();
+        let names: Vec<[u32; 2]> = scratch.source.names().map(|(next, previous)| [next, previous]).collect();
         let corners = std::mem::take(&mut scratch.source_corners);
         self.scratch = scratch;
         let known = around.len();
@@ -533,10 +532,8 @@ fn coincident<'r>(
     source_corners: &'r [u32],
     target_corners: &'r [u32],
 ) -> Option<Vec<u32>> {
-    let faces = |ring: &'r Ring, corners: &'r [u32]| {
-        let names = ring.next().iter().copied().zip(ring.previous().iter().copied());
-        names.zip(corners.iter().map(|corner| corner >> 2))
-    };
+    let faces =
+        |ring: &'r Ring, corners: &'r [u32]| ring.names().zip(corners.iter().map(|corner| corner >> 2));
     let mut doomed = Vec::new();
     for ((next, previous), face) in faces(source, source_corners) {
         for (names, other) in faces(target, target_corners) {
