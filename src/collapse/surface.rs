@@ -7,7 +7,7 @@
 use super::tile::Tile;
 use crate::mesh::{Attributes, Mesh, MeshError};
 use crate::workers::Workers;
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Three corners. Atomic only so that tiles that work side by side may read the faces between
@@ -386,12 +386,20 @@ fn last_merged(merged: &[u32], origin: u32) -> Option<u32> {
 /// alone between 1 and 2²⁰: squares of areas then neither overflow nor vanish in single precision,
 /// and no coordinate that matters is rounded.
 fn comfortable_scale(mesh: &Mesh) -> f32 {
+    // In double precision: the difference of two finite coordinates may overflow in single.
+    let extents = |low: Vec3, high: Vec3| (high.as_dvec3() - low.as_dvec3(), low.abs().max(high.abs()));
+    let comfortable = |extent: f64| (1.0..=f64::from(1 << 20)).contains(&extent);
+    let infinite = Vec3::INFINITY;
+    let positions = mesh.positions().iter().map(|&position| Vec3::from(position));
+    let (low, high) = positions.fold((infinite, -infinite), |(low, high), p| (low.min(p), high.max(p)));
+    if comfortable(extents(low, high).0.max_element()) {
+        return 1.0;
+    }
     // Vertices that no triangle uses must not set the scale.
     let Some((low, high)) = mesh.bounds() else { return 1.0 };
-    let (low, high) = (DVec3::from(low.map(f64::from)), DVec3::from(high.map(f64::from)));
-    let extent = (high - low).max_element();
-    let largest = low.abs().max(high.abs()).max_element();
-    if extent == 0.0 || (1.0..=f64::from(1 << 20)).contains(&extent) {
+    let (extent, largest) = extents(low.into(), high.into());
+    let (extent, largest) = (extent.max_element(), f64::from(largest.max_element()));
+    if extent == 0.0 || comfortable(extent) {
         return 1.0;
     }
     let exponent = (-extent.log2().floor()).min(100.0 - largest.log2().ceil()).clamp(-126.0, 126.0);
@@ -408,27 +416,26 @@ fn scatter<T: Copy + Default>(values: impl ExactSizeIterator<Item = T>, rank: &[
 }
 
 /// The triangles with three corners, renamed by `rank`, if there is one, and then sorted into
-/// buckets of 64 vertices by their first vertex, so that faces lie in memory as their vertices do.
+/// buckets of 64 vertices by their first corner, so that faces lie in memory as their vertices do.
 fn ordered_faces(triangles: &[[u32; 3]], vertices: usize, rank: Option<&[u32]>) -> Vec<Face> {
     let whole = |&&[a, b, c]: &&[u32; 3]| a != b && b != c && c != a;
-    let count = triangles.iter().filter(whole).count();
-    let mut faces = Vec::with_capacity(count);
     let Some(rank) = rank else {
+        let mut faces = Vec::with_capacity(triangles.iter().filter(whole).count());
         faces.extend(triangles.iter().filter(whole).map(|triangle| triangle.map(AtomicU32::new)));
         return faces;
     };
-    let renamed = |triangle: &[u32; 3]| triangle.map(|vertex| rank[vertex as usize]);
-    let bucket = |face: [u32; 3]| (face[0].min(face[1]).min(face[2]) >> 6) as usize;
+    let renamed = |vertex: u32| rank[vertex as usize];
+    let bucket = |triangle: &[u32; 3]| (renamed(triangle[0]) >> 6) as usize;
     let mut starts = vec![0u32; (vertices >> 6) + 2];
-    triangles.iter().filter(whole).for_each(|triangle| starts[bucket(renamed(triangle)) + 1] += 1);
+    triangles.iter().filter(whole).for_each(|triangle| starts[bucket(triangle) + 1] += 1);
     for index in 1..starts.len() {
         starts[index] += starts[index - 1];
     }
-    faces.resize_with(count, Face::default);
+    let mut faces = Vec::new();
+    faces.resize_with(starts[starts.len() - 1] as usize, Face::default);
     for triangle in triangles.iter().filter(whole) {
-        let face = renamed(triangle);
-        let start = &mut starts[bucket(face)];
-        faces[*start as usize] = face.map(AtomicU32::new);
+        let start = &mut starts[bucket(triangle)];
+        faces[*start as usize] = triangle.map(|vertex| AtomicU32::new(renamed(vertex)));
         *start += 1;
     }
     faces
@@ -453,9 +460,15 @@ fn split<T>(slice: &mut [T], cuts: impl Iterator<Item = usize>) -> Vec<&mut [T]>
     pieces
 }
 
-fn retain_alive<T>(values: &mut Vec<T>, flags: &[u8]) {
-    let mut flags = flags.iter();
-    values.retain(|_| flags.next().is_some_and(|flags| flags & flag::DEAD == 0));
+/// Moves the values of living vertices to the front.
+fn retain_alive<T: Copy>(values: &mut Vec<T>, flags: &[u8]) {
+    let mut kept = 0;
+    // Written always and counted if alive, as in `pack_faces`.
+    for (index, flags) in flags.iter().enumerate() {
+        values[kept] = values[index];
+        kept += usize::from(flags & flag::DEAD == 0);
+    }
+    values.truncate(kept);
 }
 
 fn only_used<'a, T>(values: &'a [T], map: &'a [u32]) -> impl Iterator<Item = &'a T> {

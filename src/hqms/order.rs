@@ -5,6 +5,7 @@
 //! they are, and keep their order.
 
 use crate::mesh::Mesh;
+use glam::Vec3;
 
 /// Faces looked at.
 const SAMPLES: usize = 4096;
@@ -26,25 +27,18 @@ pub(crate) fn rank(mesh: &Mesh, reach: usize) -> Option<Vec<u32>> {
 /// have within a cell. There are at most as many cells as vertices.
 fn morton_rank(positions: &[[f32; 3]]) -> Vec<u32> {
     let bits = (positions.len().max(8).ilog2() / 3).min(10);
-    let mut low = [f32::INFINITY; 3];
-    let mut high = [f32::NEG_INFINITY; 3];
-    for position in positions {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(position[axis]);
-            high[axis] = high[axis].max(position[axis]);
-        }
-    }
-    let extent = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis])).fold(0.0, f64::max);
-    let last = (1u32 << bits) - 1;
-    let per_unit = if extent > 0.0 { f64::from(1 << bits) / extent } else { 0.0 };
-    let cell = |position: &[f32; 3]| {
-        (0..3).fold(0, |cell, axis| {
-            let along = (f64::from(position[axis]) - f64::from(low[axis])) * per_unit;
-            cell | spread((along as u32).min(last)) << axis
-        })
+    let points = || positions.iter().map(|&position| Vec3::from(position));
+    let (low, high) =
+        points().fold((Vec3::INFINITY, -Vec3::INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    // The extent of finite coordinates may be infinite: then all are in cell 0, which is an order too.
+    let per_unit = (1 << bits) as f32 / (high - low).max_element().max(f32::MIN_POSITIVE);
+    let last = Vec3::splat(((1 << bits) - 1) as f32);
+    let cell = |point: Vec3| {
+        let along = ((point - low) * per_unit).min(last).as_uvec3();
+        spread(along.x) | spread(along.y) << 1 | spread(along.z) << 2
     };
     let mut starts = vec![0u32; (1 << (3 * bits)) + 1];
-    let mut ranks: Vec<u32> = positions.iter().map(cell).collect();
+    let mut ranks: Vec<u32> = points().map(cell).collect();
     ranks.iter().for_each(|&cell| starts[cell as usize + 1] += 1);
     for index in 1..starts.len() {
         starts[index] += starts[index - 1];
