@@ -15,7 +15,7 @@ use glam::Vec3A;
 ///
 /// Large enough to keep flat regions well conditioned, small enough to cost nothing: the error is
 /// the same within 2 % from 1e-4 to 1e-6 and rises by 10 % at 1e-3.
-const REGULARISATION: f32 = 1e-5;
+const REGULARISATION: f32 = 1e-6;
 
 /// A cost below this share of `trace * length²` is rounding: the planes are the same plane.
 const ROUNDING: f32 = 1e-7;

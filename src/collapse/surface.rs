@@ -66,10 +66,10 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two if it is very large
-    /// or small. The vertex `v` goes to `rank[v]`, if there is a rank.
+    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to edges of
+    /// about unit length. The vertex `v` goes to `rank[v]`, if there is a rank.
     pub(crate) fn new(mesh: &Mesh, rank: Option<&[u32]>, locked: &[u32], track_origins: bool) -> Self {
-        let scale = comfortable_scale(mesh);
+        let scale = unit_scale(mesh);
         let count = mesh.positions().len();
         let place = |vertex: u32| rank.map_or(vertex, |rank| rank[vertex as usize]);
         let scaled = mesh.positions().iter().map(|&position| (Vec3::from(position) * scale).extend(0.0));
@@ -382,28 +382,29 @@ fn last_merged(merged: &[u32], origin: u32) -> Option<u32> {
     (vertex != NONE).then_some(vertex)
 }
 
-/// A power of two that brings the longest side of the bounding box to between 1 and 2, or leaves it
-/// alone between 1 and 2²⁰: squares of areas then neither overflow nor vanish in single precision,
-/// and no coordinate that matters is rounded.
-fn comfortable_scale(mesh: &Mesh) -> f32 {
-    // In double precision: the difference of two finite coordinates may overflow in single.
-    let extents = |low: Vec3, high: Vec3| (high.as_dvec3() - low.as_dvec3(), low.abs().max(high.abs()));
-    let comfortable = |extent: f64| (1.0..=f64::from(1 << 20)).contains(&extent);
-    let infinite = Vec3::INFINITY;
-    let positions = mesh.positions().iter().map(|&position| Vec3::from(position));
-    let (low, high) = positions.fold((infinite, -infinite), |(low, high), p| (low.min(p), high.max(p)));
-    if comfortable(extents(low, high).0.max_element()) {
+/// Faces looked at for the scale.
+const SAMPLES: usize = 1024;
+
+/// A power of two that makes edges about one unit long: products of four of them and more then
+/// neither overflow nor vanish in single precision, however fine or large the mesh.
+fn unit_scale(mesh: &Mesh) -> f32 {
+    let position = |vertex: u32| Vec3::from(mesh.positions()[vertex as usize]).as_dvec3();
+    let longest = |&[a, b, c]: &[u32; 3]| {
+        let [a, b, c] = [a, b, c].map(position);
+        (b - a).length().max((c - b).length()).max((a - c).length())
+    };
+    let stride = mesh.triangles().len().div_ceil(SAMPLES).max(1);
+    let sampled = mesh.triangles().iter().step_by(stride).map(longest);
+    let mut lengths: Vec<f64> = sampled.filter(|&length| length > 0.0).collect();
+    if lengths.is_empty() {
         return 1.0;
     }
-    // Vertices that no triangle uses must not set the scale.
-    let Some((low, high)) = mesh.bounds() else { return 1.0 };
-    let (extent, largest) = extents(low.into(), high.into());
-    let (extent, largest) = (extent.max_element(), f64::from(largest.max_element()));
-    if extent == 0.0 || comfortable(extent) {
-        return 1.0;
-    }
-    let exponent = (-extent.log2().floor()).min(100.0 - largest.log2().ceil()).clamp(-126.0, 126.0);
-    f32::exp2(exponent as f32)
+    let middle = lengths.len() / 2;
+    let (_, &mut length, _) = lengths.select_nth_unstable_by(middle, f64::total_cmp);
+    // The bits of numbers that are not negative order as these do, and compare four at a time.
+    let largest = mesh.positions().as_flattened().iter().map(|x| x.abs().to_bits().cast_signed()).max();
+    let room = 100.0 - f64::from(f32::from_bits(largest.unwrap_or(0).cast_unsigned())).log2().ceil();
+    f32::exp2((-length.log2().floor()).min(room).clamp(-126.0, 126.0) as f32)
 }
 
 /// `values[v]` goes to `rank[v]`.

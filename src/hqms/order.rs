@@ -5,7 +5,7 @@
 //! they are, and keep their order.
 
 use crate::mesh::Mesh;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Faces looked at.
 const SAMPLES: usize = 4096;
@@ -27,13 +27,13 @@ pub(crate) fn rank(mesh: &Mesh, reach: usize) -> Option<Vec<u32>> {
 /// have within a cell. There are at most as many cells as vertices.
 fn morton_rank(positions: &[[f32; 3]]) -> Vec<u32> {
     let bits = (positions.len().max(8).ilog2() / 3).min(10);
-    let points = || positions.iter().map(|&position| Vec3::from(position));
+    let points = || positions.iter().map(|&position| Vec3A::from_array(position));
     let (low, high) =
-        points().fold((Vec3::INFINITY, -Vec3::INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        points().fold((Vec3A::INFINITY, -Vec3A::INFINITY), |(low, high), p| (low.min(p), high.max(p)));
     // The extent of finite coordinates may be infinite: then all are in cell 0, which is an order too.
     let per_unit = (1 << bits) as f32 / (high - low).max_element().max(f32::MIN_POSITIVE);
-    let last = Vec3::splat(((1 << bits) - 1) as f32);
-    let cell = |point: Vec3| {
+    let last = Vec3A::splat(((1 << bits) - 1) as f32);
+    let cell = |point: Vec3A| {
         let along = ((point - low) * per_unit).min(last).as_uvec3();
         spread(along.x) | spread(along.y) << 1 | spread(along.z) << 2
     };

@@ -60,7 +60,7 @@ impl Threshold {
         let vertices = surface.points.len();
         // Far from the goal a coarser order does: what is taken too early here would be taken
         // later anyway.
-        let far = goal.ratio(counts).is_some_and(|ratio| ratio > 4.0);
+        let far = goal.ratio(counts).is_some_and(|ratio| ratio > 2.5);
         let share = if far { 0.8 } else { 0.3 };
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
         let samples = sample(surface, wanted < 0.1, workers);

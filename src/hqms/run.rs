@@ -25,7 +25,7 @@ const STUCK_RATIO: f32 = 10.0;
 const STUCK_VERTICES: usize = 50_000;
 /// Below this share of its vertices to remove, a surface that is too large for the finish ends
 /// with a ranked pass.
-const RANKED_SHARE: f32 = 0.12;
+const RANKED_SHARE: f32 = 0.1;
 /// A pass that removes a smaller share of the vertices makes no progress worth another.
 const STALLED: f32 = 0.002;
 
