@@ -130,11 +130,12 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Whether what is left is for the finish.
+    /// Whether what is left is for the finish. The paper's selection goes all the way by itself.
     fn is_near(&self, goal: Goal) -> bool {
-        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
         let vertices = self.counts.vertices;
-        vertices <= FEW_VERTICES || near && vertices <= FINISH_VERTICES
+        let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
+        self.options.selection == Selection::SampledThreshold
+            && (vertices <= FEW_VERTICES || near && vertices <= FINISH_VERTICES)
     }
 
     fn pass(
