@@ -1,9 +1,41 @@
-//! decimesh: triangle-mesh simplification.
+//! decimesh simplifies triangle meshes: many triangles in, few out, with the error that was made.
+//!
+//! ```
+//! use decimesh::mesh::shapes;
+//! use decimesh::{Monitor, Options, Target, simplify};
+//!
+//! let stone = shapes::bumpy_sphere(64, 1);
+//! let result = simplify(&stone, &Options::new(Target::Ratio(0.1)), &mut Monitor::silent())?;
+//! assert!(result.mesh.triangles().len() <= stone.triangles().len() / 10);
+//! println!("{} triangles, within about {}", result.mesh.triangles().len(), result.error);
+//! # Ok::<(), decimesh::SimplifyError>(())
+//! ```
+//!
+//! # The house
+//!
+//! Modules stand on floors, and import from floors below only.
+//!
+//! | floor | room | what it is for |
+//! | --- | --- | --- |
+//! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
+//! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
+//! | 2 | `deviation` | the measured distance between two surfaces (feature `deviation`) |
+//! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files (feature `io`) |
+//! | 1 | [`mesh`] | the triangle mesh, its topology, statistics, welding, checking, and shapes to try things on |
+//! | 1 | `quadric` | sums of squared distances to planes, and their minimum |
+//!
+//! Every computation is a pure function of its input and options: no global state, no environment
+//! variable changes a result, and the number of threads changes nothing but the time.
 
 mod collapse;
 #[cfg(feature = "deviation")]
 pub mod deviation;
 pub mod hqms;
+#[cfg(feature = "bench-internals")]
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::hqms::stages::Stages;
+}
 #[cfg(feature = "io")]
 pub mod io;
 pub mod mesh;
@@ -11,13 +43,9 @@ mod monitor;
 mod quadric;
 mod workers;
 
-/// For benches/stages.rs alone.
-#[cfg(feature = "bench-internals")]
-#[doc(hidden)]
-pub mod internals {
-    pub use crate::hqms::stages::Stages;
-}
-
-pub use hqms::{Options, Selection, Simplified, StoppedBy, Target, Topology, simplify};
+pub use hqms::{
+    Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, build_levels, simplify,
+};
 pub use mesh::{Attributes, Mesh, MeshError};
 pub use monitor::{Cancelled, Monitor};
+pub use workers::ThreadsError;

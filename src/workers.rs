@@ -5,6 +5,19 @@
 
 use rayon::prelude::*;
 
+/// More threads than this would find nothing to do.
+const MOST: usize = 256;
+
+/// The threads asked for could not be started.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("cannot start {threads} threads: {reason}")]
+pub struct ThreadsError {
+    /// How many were asked for.
+    pub threads: usize,
+    /// What the system said.
+    pub reason: String,
+}
+
 /// The threads that a computation may use.
 pub(crate) enum Workers {
     /// The caller's thread.
@@ -16,15 +29,14 @@ pub(crate) enum Workers {
 }
 
 impl Workers {
-    /// `threads` workers; 0: as many as the machine has. Falls back to the caller's thread where
-    /// the system gives no more.
-    pub(crate) fn new(threads: usize) -> Self {
+    /// `threads` workers; 0: as many as the machine has.
+    pub(crate) fn new(threads: usize) -> Result<Self, ThreadsError> {
         match threads {
-            0 if rayon::current_num_threads() > 1 => Self::Global,
-            0 | 1 => Self::Caller,
-            _ => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-                Ok(pool) => Self::Pool(pool),
-                Err(_) => Self::Caller,
+            0 if rayon::current_num_threads() > 1 => Ok(Self::Global),
+            0 | 1 => Ok(Self::Caller),
+            _ => match rayon::ThreadPoolBuilder::new().num_threads(threads.min(MOST)).build() {
+                Ok(pool) => Ok(Self::Pool(pool)),
+                Err(reason) => Err(ThreadsError { threads, reason: reason.to_string() }),
             },
         }
     }
@@ -37,6 +49,21 @@ impl Workers {
             Self::Global if items.len() > 1 => items.into_par_iter().map(work).collect(),
             _ => items.into_iter().map(work).collect(),
         }
+    }
+
+    /// Applies `work` to `first` and to `second`, side by side where there are threads.
+    #[cfg(feature = "deviation")]
+    pub(crate) fn both<T: Send, R: Send>(
+        &self,
+        [first, second]: [T; 2],
+        work: impl Fn(T) -> R + Sync + Send,
+    ) -> [R; 2] {
+        let (first, second) = match self {
+            Self::Caller => (work(first), work(second)),
+            Self::Global => rayon::join(|| work(first), || work(second)),
+            Self::Pool(pool) => pool.join(|| work(first), || work(second)),
+        };
+        [first, second]
     }
 
     /// How many threads there are.

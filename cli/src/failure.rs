@@ -45,7 +45,7 @@ impl Failure {
 impl From<SimplifyError> for Failure {
     fn from(error: SimplifyError) -> Self {
         match error {
-            SimplifyError::InvalidOption(message) => Self::Options(message),
+            SimplifyError::InvalidOption(_) | SimplifyError::Threads(_) => Self::Options(error.to_string()),
             other => Self::Unexpected(other.to_string()),
         }
     }
@@ -54,7 +54,7 @@ impl From<SimplifyError> for Failure {
 impl From<DeviationError> for Failure {
     fn from(error: DeviationError) -> Self {
         match error {
-            DeviationError::Empty { .. } | DeviationError::Threads { .. } => Self::Options(error.to_string()),
+            DeviationError::Empty { .. } | DeviationError::Threads(_) => Self::Options(error.to_string()),
             other => Self::Unexpected(other.to_string()),
         }
     }

@@ -2,18 +2,17 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::sampling::Strata;
 use super::surface::Surface;
-use super::{Directed, Sampling, Workers};
+use super::{Directed, Sampling};
 use crate::Cancelled;
+use crate::workers::Workers;
 
 /// Points that one worker measures in one go. Fixed, as the sums are rounded block by block.
 const BLOCK: usize = 1024;
 
 /// Blocks between two reports to the monitor.
-pub(super) const BATCH: usize = 64;
+const BATCH: usize = 64;
 
 /// Distances below this share of the largest coordinate are rounding.
 const NOISE: f64 = 1.0 / (1u64 << 44) as f64;
@@ -55,17 +54,16 @@ impl<'a> Direction<'a> {
         let mut totals = Totals::default();
         if let Some(strata) = &self.strata {
             for batch in pieces(0..self.samples, BLOCK * BATCH) {
-                totals.add(workers.run(|| in_blocks(batch.clone(), |block| self.sampled(strata, block))));
+                totals.add(in_blocks(workers, batch.clone(), |block| self.sampled(strata, block)));
                 advance(batch.len())?;
             }
         }
         for batch in pieces(0..self.vertices.len(), BLOCK * BATCH) {
             let enough = totals.max_squared;
-            let measured = workers.run(|| match self.strata {
-                Some(_) => in_blocks(batch.clone(), |block| self.farthest_vertex(block, enough)),
-                None => in_blocks(batch.clone(), |block| self.vertices_as_samples(block)),
-            });
-            totals.add(measured);
+            totals.add(in_blocks(workers, batch.clone(), |block| match self.strata {
+                Some(_) => self.farthest_vertex(block, enough),
+                None => self.vertices_as_samples(block),
+            }));
             advance(batch.len())?;
         }
         Ok(totals)
@@ -124,9 +122,12 @@ fn pieces(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usiz
 }
 
 /// Sums over the blocks of a batch, added in their order whoever was first.
-fn in_blocks(batch: Range<usize>, measure: impl Fn(Range<usize>) -> Totals + Sync + Send) -> Totals {
-    let blocks: Vec<_> = pieces(batch, BLOCK).collect();
-    let measured: Vec<_> = blocks.into_par_iter().map(measure).collect();
+fn in_blocks(
+    workers: &Workers,
+    batch: Range<usize>,
+    measure: impl Fn(Range<usize>) -> Totals + Sync + Send,
+) -> Totals {
+    let measured = workers.map(pieces(batch, BLOCK).collect(), measure);
     measured.into_iter().fold(Totals::default(), |mut totals, block| {
         totals.add(block);
         totals

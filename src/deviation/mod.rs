@@ -13,6 +13,7 @@ mod triangle;
 use directed::{Direction, Totals};
 use surface::Surface;
 
+use crate::workers::{ThreadsError, Workers};
 use crate::{Cancelled, Mesh, Monitor};
 
 /// How densely to sample, and with how many threads.
@@ -104,13 +105,8 @@ pub enum DeviationError {
         mesh: &'static str,
     },
     /// The threads asked for could not be started.
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads {
-        /// How many were asked for.
-        threads: usize,
-        /// What the system said.
-        reason: rayon::ThreadPoolBuildError,
-    },
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// The monitor ended the measurement.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -145,11 +141,11 @@ pub fn deviation(
     }
     let workers = Workers::new(sampling.threads)?;
     monitor.report(0.0)?;
-    let (a, b) = workers.run(|| rayon::join(|| Surface::new(a), || Surface::new(b)));
+    let [a, b] = workers.both([a, b], Surface::new);
     monitor.report(BUILT)?;
 
-    let (forward, backward) =
-        workers.run(|| rayon::join(|| Direction::new(&a, &b, sampling), || Direction::new(&b, &a, sampling)));
+    let [forward, backward] =
+        workers.both([(&a, &b), (&b, &a)], |(from, to)| Direction::new(from, to, sampling));
     let points = (forward.point_count() + backward.point_count()) as f64;
     let mut done = 0;
     let mut advance = |measured: usize| {
@@ -175,26 +171,5 @@ fn combine(diagonal: f64, forward: Totals, backward: Totals) -> Deviation {
         backward,
         diagonal,
         normal_rms_degrees,
-    }
-}
-
-/// The threads that work: a pool of our own, or the global one.
-struct Workers(Option<rayon::ThreadPool>);
-
-impl Workers {
-    fn new(threads: usize) -> Result<Self, DeviationError> {
-        if threads == 0 {
-            return Ok(Self(None));
-        }
-        // More threads than a batch has blocks would find nothing to do.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(directed::BATCH)).build();
-        pool.map(|pool| Self(Some(pool))).map_err(|reason| DeviationError::Threads { threads, reason })
-    }
-
-    fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        match &self.0 {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
     }
 }

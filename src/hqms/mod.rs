@@ -11,6 +11,7 @@ pub(crate) mod stages;
 
 use crate::mesh::{Mesh, MeshError};
 use crate::monitor::{Cancelled, Monitor};
+use crate::workers::ThreadsError;
 use run::Run;
 
 /// What a simplification shall arrive at.
@@ -129,6 +130,9 @@ pub enum SimplifyError {
     /// An option has a value it cannot have.
     #[error("{0}")]
     InvalidOption(String),
+    /// The threads asked for could not be started.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// The result does not make a mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),

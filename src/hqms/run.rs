@@ -46,7 +46,7 @@ impl<'a> Run<'a> {
     pub(crate) fn new(mesh: &'a Mesh, options: &'a Options) -> Result<Self, SimplifyError> {
         check(mesh, options)?;
         let rank = rank(mesh, TILE / 8);
-        let workers = Workers::new(options.threads);
+        let workers = Workers::new(options.threads)?;
         let mut locked = options.locked.clone();
         if options.keep_seams && *mesh.attributes() != Attributes::default() {
             locked.extend(seams(mesh));
