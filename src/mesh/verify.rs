@@ -115,7 +115,8 @@ pub enum Violation {
 ///
 /// - no vertex that no triangle uses,
 /// - no more degenerate, zero-area and duplicate triangles than the input,
-/// - no more non-manifold edges, non-manifold vertices and inconsistent edges than the input,
+/// - no more non-manifold edges, non-manifold vertices and inconsistent edges than the input (where a
+///   non-manifold edge has lost a face, an inconsistent one may have taken its place),
 /// - and, if `topology_kept` and the input is clean, the input's number of components, its number of
 ///   boundary loops and its Euler characteristic.
 ///
@@ -192,7 +193,8 @@ fn verify_manifold(mesh: &Mesh, rings: &Rings, had: Topology, has: Topology) -> 
         return Err(Violation::NonManifoldVertices { vertex, output, input });
     }
     let (output, input) = (has.inconsistent_edges, had.inconsistent_edges);
-    if output > input
+    let vanished = had.non_manifold_edges.saturating_sub(has.non_manifold_edges);
+    if output > input + vanished
         && let Some(vertices) = first_edge(mesh, rings, |edge| edge.is_inconsistent())
     {
         return Err(Violation::InconsistentEdges { vertices, output, input });
