@@ -191,3 +191,20 @@ proptest! {
         }
     }
 }
+
+/// A thin face, seen from its far end, whose corner moves onto the line through the other two: what
+/// is left of its area is rounding, many times what its small side and the way moved suggest.
+#[test]
+fn a_sliver_does_not_become_a_line() {
+    let corner = Vec3A::new(-0.670_041_3, 16.493_677, 0.740_794_2);
+    let next = Vec3A::new(-0.740_793_94, 24.327_171, 0.740_794_1);
+    let previous = Vec3A::new(-0.740_793_94, 24.355_652, 0.740_794_1);
+    let mut ring = Ring::default();
+    ring.gather(0, false, 1, |gathering| {
+        gathering.push(1, 2, next - corner, previous - corner);
+        true
+    });
+    let onto_the_line = Vec3A::new(next.x, corner.y, next.z) - corner;
+    assert_eq!(fold(&ring, 3, onto_the_line), None);
+    assert!(fold(&ring, 3, 0.5 * onto_the_line).is_some());
+}

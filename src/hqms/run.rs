@@ -197,8 +197,9 @@ impl<'a> Run<'a> {
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
         let (mesh, origins) = self.surface.to_mesh()?;
-        let error =
-            self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max) / self.surface.scale();
+        let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
+        // On a surface as wide as numbers go, the estimate may lie beyond the largest.
+        let error = (largest / self.surface.scale()).min(f32::MAX);
         let Self { locked, topology_changed, passes, .. } = *self;
         Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes })
     }

@@ -321,6 +321,18 @@ mod tests {
         assert_eq!(verify(&input, &shapes::sphere(2), true), Err(violation));
     }
 
+    #[test]
+    fn an_edge_that_lost_a_face_may_be_inconsistent() {
+        let pages = six(&[[0, 1, 2], [0, 1, 3], [1, 0, 4]]);
+        let left = six(&[[0, 1, 2], [0, 1, 3]]);
+        let used =
+            |mesh: &Mesh| Mesh::new(mesh.positions()[..4].to_vec(), mesh.triangles().to_vec()).unwrap();
+        assert_eq!(verify(&pages, &used(&left), true), Ok(()));
+        let sound = used(&six(&[[0, 1, 2], [1, 0, 3]]));
+        let violation = Violation::InconsistentEdges { vertices: [0, 1], output: 1, input: 0 };
+        assert_eq!(verify(&sound, &used(&left), true), Err(violation));
+    }
+
     proptest! {
         #[test]
         fn every_mesh_without_unused_vertices_is_as_sound_as_itself(
