@@ -189,24 +189,24 @@ mod tests {
 
     use super::*;
 
-    fn vector(range: f32) -> impl Strategy<Value = Vec3> {
-        [-range..range, -range..range, -range..range].prop_map(Vec3::from)
+    fn vector(range: f32) -> impl Strategy<Value = Vec3A> {
+        [-range..range, -range..range, -range..range].prop_map(Vec3A::from)
     }
 
     /// Planes through the origin: unit normals, and weights.
-    fn planes() -> impl Strategy<Value = Vec<(Vec3, f32)>> {
+    fn planes() -> impl Strategy<Value = Vec<(Vec3A, f32)>> {
         let normal = vector(1.0).prop_filter_map("too short", |x| (x.length() > 0.1).then(|| x.normalize()));
         prop::collection::vec((normal, 0.01f32..2.0), 1..9)
     }
 
-    fn quadric(planes: &[(Vec3, f32)]) -> Quadric {
+    fn quadric(planes: &[(Vec3A, f32)]) -> Quadric {
         let mut quadric = Quadric::default();
         planes.iter().for_each(|&(normal, weight)| quadric.add_plane(normal, weight));
         quadric
     }
 
     /// The weighted sum of squared distances from planes through `origin`.
-    fn distances(planes: &[(Vec3, f32)], origin: DVec3, x: DVec3) -> f64 {
+    fn distances(planes: &[(Vec3A, f32)], origin: DVec3, x: DVec3) -> f64 {
         planes
             .iter()
             .map(|&(normal, weight)| f64::from(weight) * (x - origin).dot(normal.as_dvec3()).powi(2))
@@ -214,10 +214,10 @@ mod tests {
     }
 
     /// The least of both sums with the pull to the middle of the edge, from the normal equations.
-    fn least(source: &[(Vec3, f32)], target: &[(Vec3, f32)], edge: Vec3) -> (DVec3, f64) {
+    fn least(source: &[(Vec3A, f32)], target: &[(Vec3A, f32)], edge: Vec3A) -> (DVec3, f64) {
         let edge = edge.as_dvec3();
         let outer = |normal: DVec3| DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
-        let matrix = |planes: &[(Vec3, f32)]| {
+        let matrix = |planes: &[(Vec3A, f32)]| {
             planes.iter().fold(DMat3::ZERO, |sum, &(normal, weight)| {
                 sum + outer(normal.as_dvec3()) * f64::from(weight)
             })
@@ -244,8 +244,9 @@ mod tests {
         fn a_face_weighs_as_its_area(a in vector(2.0), b in vector(2.0), x in vector(2.0)) {
             let cross = a.cross(b);
             prop_assume!(cross.length() > 1e-2);
-            let mut face = Quadric::default();
-            face.add_face(cross);
+            let mut sum = QuadricSum::default();
+            sum.add_face(cross);
+            let face = sum.quadric();
             let expected = 0.5 * cross.length() * x.dot(cross.normalize()).powi(2);
             prop_assert!((face.at(x) - expected).abs() <= 1e-4 * cross.length() * x.length_squared() + 1e-9);
         }
@@ -302,10 +303,10 @@ mod tests {
 
     #[test]
     fn an_end_on_all_planes_of_the_other_is_taken_as_it_is() {
-        let flat = quadric(&[(Vec3::Z, 1.0)]);
-        let corner = quadric(&[(Vec3::X, 1.0), (Vec3::Y, 1.0), (Vec3::Z, 1.0)]);
-        let edge = Vec3::new(0.3, -0.7, 0.0);
+        let flat = quadric(&[(Vec3A::Z, 1.0)]);
+        let corner = quadric(&[(Vec3A::X, 1.0), (Vec3A::Y, 1.0), (Vec3A::Z, 1.0)]);
+        let edge = Vec3A::new(0.3, -0.7, 0.0);
         assert_eq!(place(&flat, &corner, edge).offset, edge);
-        assert_eq!(place(&corner, &flat, edge).offset, Vec3::ZERO);
+        assert_eq!(place(&corner, &flat, edge).offset, Vec3A::ZERO);
     }
 }

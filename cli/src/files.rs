@@ -29,7 +29,7 @@ pub(crate) fn make_directory(directory: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(directory).map_err(Failure::write(directory))
 }
 
-/// Fails where [`write`] to `path` would fail only after long work: its extension names no format, or
+/// Fails where [`write()`] to `path` would fail only after long work: its extension names no format, or
 /// its directory does not exist.
 pub(crate) fn check_output(path: &Path) -> Result<(), Failure> {
     check_format(path)?;

@@ -50,6 +50,10 @@ const TURN: f32 = 0.01;
 /// a line: below that, single precision does not know on which side it lies.
 const LINE: f32 = 1e-5;
 
+/// So is a face that has less area than this share of the product of its longer sides, eight units
+/// in the last place: it may have none.
+const SLIVER: f32 = 4.8e-7;
+
 impl Edge<'_> {
     /// The collapse of this edge, if the rules allow it. `neighbours` is room to work in.
     #[inline(always)]
@@ -154,7 +158,10 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
         let area_after = after.length_squared();
         let cosine = before.dot(after);
         let turns = (cosine <= 0.0) | (cosine * cosine < TURN * area_before * area_after);
-        let narrow = area_after <= narrowest * opposite.length_squared();
+        // What rounding leaves of the area is a share of the sides' product, which is nothing beside
+        // the way moved unless the face is a sliver: there their dot product is the same.
+        let sides = SLIVER * spoke.to_next.dot(spoke.to_previous);
+        let narrow = area_after <= f32::max(narrowest * opposite.length_squared(), sides * sides);
         let survives = (next != other) & (previous != other);
         folded |= survives & (turns | narrow) & (area_before > 0.0);
         let height = before.dot(offset);

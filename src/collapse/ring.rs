@@ -27,7 +27,7 @@ pub(crate) struct Ring {
     spokes: Vec<Spoke>,
     count: usize,
     pub(crate) vertex: u32,
-    /// The vertex lies on an edge that has not exactly two faces of one orientation.
+    /// The vertex lies on an edge with more faces in one direction than in the other.
     pub(crate) boundary: bool,
     pub(crate) quadric: Quadric,
 }

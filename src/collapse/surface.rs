@@ -17,7 +17,9 @@ pub(crate) type Face = [AtomicU32; 3];
 
 /// What is known about a vertex: bits of [`Surface::flags`].
 pub(crate) mod flag {
-    /// On an edge that has not exactly two faces of one orientation.
+    /// On an edge with more faces in one direction than in the other: a border, a change of
+    /// orientation, or an edge of three faces. An edge with as many of each, such as the one along
+    /// which two solids touch, does not show here; the link condition does not let it collapse.
     pub(crate) const BOUNDARY: u8 = 1;
     /// Target of a collapse in this pass.
     pub(crate) const USED: u8 = 2;

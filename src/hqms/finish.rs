@@ -15,14 +15,15 @@ use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, hash, is_alive, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Edge, Rules};
+use crate::mesh::partition::Partition;
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
 use glam::Vec3A;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// Rings with more faces wait until their neighbours have gone: to update them at each collapse
-/// around them would take time quadratic in their size.
-const MAX_DEGREE: usize = 512;
+/// A vertex with more faces is a hub, and waits until its neighbours have gone: to update it at each
+/// collapse around it would take time quadratic in its size.
+const MAX_DEGREE: u32 = 512;
 /// Collapses between two looks at the monitor.
 const BATCH: usize = 1024;
 
@@ -59,6 +60,8 @@ pub(crate) struct Finish<'a> {
     /// of its vertex: rings as linked lists, which join in no time.
     first: Vec<u32>,
     next: Vec<u32>,
+    /// How many faces each vertex has.
+    degrees: Vec<u32>,
     quadrics: Vec<Quadric>,
     candidates: Vec<Candidate>,
     queue: Queue,
@@ -79,16 +82,19 @@ struct Scratch {
 }
 
 impl<'a> Finish<'a> {
-    /// Takes over a compacted surface, which has `counts`.
+    /// Takes over a surface whose dead have left its faces, and which has `counts`.
     pub(crate) fn new(surface: &'a mut Surface, counts: Counts, rules: &'a Rules) -> Self {
         let vertices = surface.points.len();
         let mut first = vec![NONE; vertices];
         let mut next = vec![NONE; 4 * surface.faces.len()];
+        let mut degrees = vec![0; vertices];
         // Backwards, so that the lists are in face order.
         for (index, face) in surface.faces.iter().enumerate().rev() {
             for (corner, vertex) in face.iter().enumerate() {
                 let name = index << 2 | corner;
-                next[name] = std::mem::replace(&mut first[vertex.load(Relaxed) as usize], name as u32);
+                let vertex = vertex.load(Relaxed) as usize;
+                next[name] = std::mem::replace(&mut first[vertex], name as u32);
+                degrees[vertex] += 1;
             }
         }
         let mut finish = Self {
@@ -96,6 +102,7 @@ impl<'a> Finish<'a> {
             rules,
             first,
             next,
+            degrees,
             quadrics: vec![Quadric::default(); vertices],
             candidates: vec![IMPOSSIBLE; vertices],
             queue: Queue::new(vertices),
@@ -124,6 +131,19 @@ impl<'a> Finish<'a> {
         goal: Goal,
         report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
     ) -> Result<Counts, Cancelled> {
+        loop {
+            self.empty_queue(goal, report)?;
+            if !self.settle_hubs() {
+                return Ok(self.counts);
+            }
+        }
+    }
+
+    fn empty_queue(
+        &mut self,
+        goal: Goal,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
         let mut collapses = 0;
         let mut around = Vec::new();
         while goal.excess(self.counts) > 0
@@ -149,7 +169,31 @@ impl<'a> Finish<'a> {
                 }
             }
         }
-        Ok(self.counts)
+        Ok(())
+    }
+
+    fn is_hub(&self, vertex: u32) -> bool {
+        self.degrees[vertex as usize] > MAX_DEGREE
+    }
+
+    /// Does at the hubs what was put off; whether any of them was split.
+    fn settle_hubs(&mut self) -> bool {
+        let mut hubs: Vec<u32> =
+            (0..self.degrees.len() as u32).filter(|&vertex| self.is_hub(vertex)).collect();
+        let count = hubs.len();
+        if self.rules.any_topology {
+            for index in 0..count {
+                self.split_fans(hubs[index], &mut hubs);
+            }
+        }
+        for &hub in &hubs {
+            self.refresh(hub);
+        }
+        let is_split = hubs.len() > count;
+        if is_split {
+            self.update(&hubs);
+        }
+        is_split
     }
 
     /// Gathers the ring of `vertex`, and the corners it consists of. Faces that have died leave the
@@ -201,9 +245,12 @@ impl<'a> Finish<'a> {
         alive
     }
 
-    /// The neighbours of `vertex`, once or twice each.
+    /// The neighbours of `vertex`, once or twice each; none of a hub.
     fn gather_neighbours(&self, vertex: u32, around: &mut Vec<u32>) {
         around.clear();
+        if self.is_hub(vertex) {
+            return;
+        }
         let open = self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
         let mut corner = self.first[vertex as usize];
         while corner != NONE {
@@ -224,6 +271,9 @@ impl<'a> Finish<'a> {
 
     /// The cost of the edge, the same from both of its ends to the last bit.
     fn cost(&self, a: u32, b: u32) -> f32 {
+        if self.is_hub(a) || self.is_hub(b) {
+            return f32::INFINITY;
+        }
         let (a, b) = (a.min(b), a.max(b));
         let edge = self.position(b) - self.position(a);
         let (of_a, of_b) = (&self.quadrics[a as usize], &self.quadrics[b as usize]);
@@ -246,14 +296,12 @@ impl<'a> Finish<'a> {
         mut seen: impl FnMut(&Self, Candidate),
     ) -> Candidate {
         let mut best = IMPOSSIBLE;
-        if around.len() <= MAX_DEGREE {
-            for &partner in around {
-                let candidate = Candidate { cost: self.cost(vertex, partner), partner };
-                seen(self, candidate);
-                let possible = failed.is_none_or(|failed| failed.order() < candidate.order());
-                if possible && candidate.order() < best.order() {
-                    best = candidate;
-                }
+        for &partner in around {
+            let candidate = Candidate { cost: self.cost(vertex, partner), partner };
+            seen(self, candidate);
+            let possible = failed.is_none_or(|failed| failed.order() < candidate.order());
+            if possible && candidate.order() < best.order() {
+                best = candidate;
             }
         }
         best
@@ -273,6 +321,9 @@ impl<'a> Finish<'a> {
     /// Collapses the edge, if the rules allow it and the goal is not overshot (but for one triangle,
     /// where there must be two), and brings all around up to date.
     fn try_collapse(&mut self, vertex: u32, partner: u32, goal: Goal) -> Outcome {
+        if self.is_hub(vertex) || self.is_hub(partner) {
+            return Outcome::Illegal;
+        }
         let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
         let mut scratch = std::mem::take(&mut self.scratch);
@@ -297,11 +348,13 @@ impl<'a> Finish<'a> {
         self.set(ends[0], IMPOSSIBLE);
         if self.rules.any_topology {
             for index in 0..around.len() {
-                self.split_fans(around[index], &mut around);
+                if !self.is_hub(around[index]) {
+                    self.split_fans(around[index], &mut around);
+                }
             }
         }
         around.retain(|&vertex| {
-            let alive = self.refresh(vertex);
+            let alive = self.is_hub(vertex) || self.refresh(vertex);
             if !alive {
                 self.bury(vertex);
             }
@@ -372,6 +425,9 @@ impl<'a> Finish<'a> {
 
     fn kill(&mut self, face: u32) {
         let face = &self.surface.faces[face as usize];
+        for corner in face {
+            self.degrees[corner.load(Relaxed) as usize] -= 1;
+        }
         face[1].store(face[0].load(Relaxed), Relaxed);
     }
 
@@ -388,9 +444,11 @@ impl<'a> Finish<'a> {
             } else {
                 face[(corner & 3) as usize].store(target, Relaxed);
                 self.next[corner as usize] = std::mem::replace(&mut self.first[into], corner);
+                self.degrees[into] += 1;
             }
         }
         self.first[from] = NONE;
+        self.degrees[from] = 0;
         let surface = &mut *self.surface;
         surface.points[into] = collapse.point;
         surface.flags[from] |= flag::DEAD;
@@ -413,48 +471,35 @@ impl<'a> Finish<'a> {
     fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
         let mut scratch = std::mem::take(&mut self.scratch);
         self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
-        let names: Vec<[u32; 2]> = scratch.source.names().map(|(next, previous)| [next, previous]).collect();
-        let corners = std::mem::take(&mut scratch.source_corners);
-        self.scratch = scratch;
-        let known = around.len();
-        let mut left: Vec<usize> = (0..names.len()).collect();
-        let mut is_first = true;
-        while let Some(start) = left.pop() {
-            let mut fan = vec![start];
-            let mut reached = 0;
-            while reached < fan.len() {
-                let [next, previous] = names[fan[reached]];
-                reached += 1;
-                left.retain(|&other| {
-                    let adjacent = names[other].contains(&next) || names[other].contains(&previous);
-                    if adjacent {
-                        fan.push(other);
-                    }
-                    !adjacent
+        let mut fans = Partition::new(scratch.source_corners.len());
+        let names = (0..).zip(scratch.source.names());
+        let mut ends: Vec<(u32, u32)> =
+            names.flat_map(|(face, (next, previous))| [(next, face), (previous, face)]).collect();
+        ends.sort_unstable();
+        for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            fans.unite(pair[0].1, pair[1].1);
+        }
+        if fans.sets() > 1 {
+            // A fan is named by its first face.
+            let mut owners = Vec::with_capacity(scratch.source_corners.len());
+            for face in 0..scratch.source_corners.len() as u32 {
+                let fan = fans.find(face);
+                owners.push(match fan {
+                    0 => vertex,
+                    _ if fan < face => owners[fan as usize],
+                    _ => self.copy_vertex(vertex),
                 });
+                around.extend((fan == face && fan > 0).then_some(owners[face as usize]));
             }
-            if !std::mem::take(&mut is_first) {
-                fan.sort_unstable();
-                let copy = self.copy_vertex(vertex);
-                for &index in fan.iter().rev() {
-                    let corner = corners[index];
-                    self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].store(copy, Relaxed);
-                    self.next[corner as usize] = std::mem::replace(&mut self.first[copy as usize], corner);
-                }
-                around.push(copy);
-            }
-        }
-        if around.len() > known {
-            let own = |&&corner: &&u32| {
-                self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].load(Relaxed) == vertex
-            };
-            let own: Vec<u32> = corners.iter().filter(own).copied().collect();
             self.first[vertex as usize] = NONE;
-            for &corner in own.iter().rev() {
-                self.next[corner as usize] = std::mem::replace(&mut self.first[vertex as usize], corner);
+            self.degrees[vertex as usize] = 0;
+            for (&corner, &owner) in scratch.source_corners.iter().zip(&owners).rev() {
+                self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].store(owner, Relaxed);
+                self.next[corner as usize] = std::mem::replace(&mut self.first[owner as usize], corner);
+                self.degrees[owner as usize] += 1;
             }
         }
-        self.scratch.source_corners = corners;
+        self.scratch = scratch;
     }
 
     /// A new vertex where `vertex` is, without faces.
@@ -474,6 +519,7 @@ impl<'a> Finish<'a> {
             surface.merged.push(name);
         }
         self.first.push(NONE);
+        self.degrees.push(0);
         self.quadrics.push(Quadric::default());
         self.candidates.push(IMPOSSIBLE);
         self.changed.push(0);
@@ -483,8 +529,9 @@ impl<'a> Finish<'a> {
 
     /// Takes a vertex without faces off the surface.
     fn bury(&mut self, vertex: u32) {
-        self.counts.vertices -= 1;
-        self.surface.flags[vertex as usize] |= flag::DEAD;
+        let flags = &mut self.surface.flags[vertex as usize];
+        self.counts.vertices -= usize::from(*flags & flag::DEAD == 0);
+        *flags |= flag::DEAD;
         if let Some(merged) = self.surface.merged.get_mut(vertex as usize) {
             *merged = NONE;
         }

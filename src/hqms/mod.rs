@@ -148,7 +148,7 @@ pub enum SimplifyError {
 /// and [`Simplified::stopped_by`] says why.
 pub fn simplify(mesh: &Mesh, options: &Options, monitor: &mut Monitor) -> Result<Simplified, SimplifyError> {
     let mut run = Run::new(mesh, options)?;
-    let stopped_by = run.reach(options.target, monitor)?;
+    let stopped_by = run.reach(options.target, 0.0..1.0, monitor)?;
     run.drop_rings();
     run.result(stopped_by)
 }
@@ -156,7 +156,8 @@ pub fn simplify(mesh: &Mesh, options: &Options, monitor: &mut Monitor) -> Result
 /// Simplifies `mesh` to each of `targets` in turn, from fine to coarse: each level goes on from
 /// the one before, so that a chain costs little more than its coarsest level.
 ///
-/// [`Options::target`] is not looked at. Levels that cannot be met are the same mesh as the one
+/// [`Options::target`] is not looked at, and each level is the same share of what the monitor is told,
+/// though the first ones take longest. Levels that cannot be met are the same mesh as the one
 /// before, and say so.
 pub fn build_levels(
     mesh: &Mesh,
@@ -166,8 +167,9 @@ pub fn build_levels(
 ) -> Result<Vec<Simplified>, SimplifyError> {
     let mut run = Run::new(mesh, options)?;
     let mut levels = Vec::with_capacity(targets.len());
-    for &target in targets {
-        let stopped_by = run.reach(target, monitor)?;
+    let share = |level: usize| level as f32 / targets.len() as f32;
+    for (level, &target) in targets.iter().enumerate() {
+        let stopped_by = run.reach(target, share(level)..share(level + 1), monitor)?;
         levels.push(run.result(stopped_by)?);
     }
     Ok(levels)

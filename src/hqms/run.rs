@@ -11,6 +11,7 @@ use crate::mesh::weld::first_equal;
 use crate::mesh::{Attributes, Mesh};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
+use std::ops::Range;
 
 /// The finish begins when the surface is this many times larger than the goal...
 const FINISH_RATIO: f32 = 1.5;
@@ -70,10 +71,11 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Goes on until `target` is met, or cannot be.
+    /// Goes on until `target` is met, or cannot be. What is reported lies in `share`.
     pub(crate) fn reach(
         &mut self,
         target: Target,
+        share: Range<f32>,
         monitor: &mut Monitor,
     ) -> Result<StoppedBy, SimplifyError> {
         check_target(target)?;
@@ -84,7 +86,9 @@ impl<'a> Run<'a> {
         };
         let rules = Rules { any_topology: false, error_limit };
         let start = self.counts;
-        let mut report = |counts: Counts| monitor.report(progress(goal, start, counts));
+        let mut report = |counts: Counts| {
+            monitor.report(share.start + (share.end - share.start) * progress(goal, start, counts))
+        };
         report(self.counts)?;
         let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
         let mut checkpoint = None;
@@ -122,7 +126,7 @@ impl<'a> Run<'a> {
             }
             self.surface.build_rings(&self.workers);
         }
-        monitor.report(1.0)?;
+        monitor.report(share.end)?;
         Ok(match goal {
             Goal::Fewest => StoppedBy::Error,
             _ if goal.excess(self.counts) == 0 => StoppedBy::Target,
@@ -194,8 +198,9 @@ impl<'a> Run<'a> {
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
         let (mesh, origins) = self.surface.to_mesh()?;
-        let error =
-            self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max) / self.surface.scale();
+        let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
+        // On a surface as wide as numbers go, the estimate may lie beyond the largest.
+        let error = (largest / self.surface.scale()).min(f32::MAX);
         let Self { locked, topology_changed, passes, .. } = *self;
         Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes })
     }

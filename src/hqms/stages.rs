@@ -32,7 +32,7 @@ impl Stages {
         let rank = rank(mesh, TILE / 8);
         let surface = Surface::new(mesh, rank.as_deref(), &[], false);
         Self {
-            counts: Counts { faces: surface.faces.len(), vertices: surface.positions.len() },
+            counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,
             goal: Goal::new(Target::Ratio(ratio), mesh),
             workers: Workers::new(threads),
@@ -84,8 +84,8 @@ impl Stages {
 
     /// The heap, down to the goal.
     pub fn finish(&mut self) -> Result<(), Cancelled> {
-        let removed = Finish::new(&mut self.surface, &RULES).run(self.counts, self.goal, &mut |_| Ok(()))?;
-        self.counts.remove(removed);
+        let Self { surface, counts, goal, .. } = self;
+        *counts = Finish::new(surface, *counts, &RULES).run(*goal, &mut |_| Ok(()))?;
         Ok(())
     }
 

@@ -6,7 +6,7 @@
 //! components are all the normal case of real data.
 
 mod extent;
-mod partition;
+pub(crate) mod partition;
 mod rings;
 pub mod shapes;
 mod statistics;

@@ -40,15 +40,17 @@ fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<Value = Case
         ];
         let topology = prop_oneof![Just(Topology::RelaxIfStuck), Just(Topology::Keep)];
         let locked = prop_oneof![3 => Just(0u64), 1 => 0u64..100];
-        let switches = (prop::bool::weighted(0.25), any::<bool>(), 1usize..3, any::<u64>());
+        let switches = (prop::bool::weighted(0.25), any::<bool>(), any::<bool>(), 1usize..3, any::<u64>());
         (Just(mesh), target, selection, topology, locked, switches).prop_map(
-            |(mesh, target, selection, topology, locked, (lock_boundary, track_origins, threads, seed))| {
+            |(mesh, target, selection, topology, locked, switches)| {
+                let (lock_boundary, keep_seams, track_origins, threads, seed) = switches;
                 let vertices = 0..mesh.positions().len() as u32;
                 let locked = vertices.filter(|&vertex| noise(seed, vertex as usize) % 100 < locked).collect();
                 let options = Options {
                     selection,
                     topology,
                     lock_boundary,
+                    keep_seams,
                     locked,
                     threads,
                     track_origins,
