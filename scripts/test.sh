@@ -3,8 +3,8 @@
 # all tests, and the command as a user meets it. Each step says how long it took; the first that
 # fails ends the run, with its name.
 #
-# Needs Rust with rustfmt and clippy, and a C++ compiler (for meshoptimizer, which only tests and
-# benches use).
+# Needs Rust with rustfmt and clippy, and a C++ compiler (for meshoptimizer, which only benches use),
+# which it installs where it may.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -29,6 +29,16 @@ step() {
     echo "== $current"
     "$@"
     echo "== $current: $((SECONDS - start)) s"
+}
+
+# What Debian has to give. Machines that have it already, or are no Debian, are left alone.
+tools() {
+    if ! command -v c++ >/dev/null && command -v apt-get >/dev/null; then
+        apt-get update -q
+        apt-get install -y -q --no-install-recommends g++
+    fi
+    c++ --version
+    cargo --version
 }
 
 # The workspace's own code alone is held to no warnings: the lints of dependencies are theirs.
@@ -58,6 +68,7 @@ command_line() {
     decimesh info "$work/small.obj"
 }
 
+step "tools" tools
 step "formatting" cargo fmt --all --check
 step "lints" lint
 step "lints of the bare core" bare_core
