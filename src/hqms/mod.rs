@@ -1,4 +1,13 @@
 //! HQMS: linear-time, high-quality simplification by passes of quadric edge collapses.
+//!
+//! Follows Chen, Fahn, Tsai, Chen and Lin, *A Linear Time Algorithm for High Quality Mesh
+//! Simplification*, section 3: passes over the mesh, each of which builds the rings anew, collapses
+//! up to half of the vertices in one sweep without a global queue, and leaves a level behind; quadrics
+//! from the faces of the pass, not accumulated; the cost taken at the neighbour, the placement solved
+//! only for what is executed. Both selections of collapses share all of that: see [`Selection`].
+//!
+//! Departures, each said where it is: the default selection, legality, weights, the exact count, and
+//! the finish.
 
 mod finish;
 mod goal;
