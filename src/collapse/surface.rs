@@ -178,8 +178,7 @@ impl Surface {
         });
     }
 
-    /// Flags the vertices of borders, non-manifold edges and changes of orientation, and locks
-    /// them if asked; buries those without a face, and counts these. Needs the rings.
+    /// Gives vertices their [`flag::BOUNDARY`], and locks them if asked; buries those without a face, and counts these. Needs the rings.
     ///
     /// In a closed and oriented ring, each neighbour is once the next corner and once the previous
     /// one; so the hashes of the next less those of the previous cancel, and elsewhere they do so

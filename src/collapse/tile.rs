@@ -40,7 +40,6 @@ pub(crate) struct Scratch {
 
 impl<'a> Tile<'a> {
     /// A tile of all vertices.
-    #[expect(clippy::too_many_arguments, reason = "called once, by the surface, with all it has")]
     pub(crate) fn new(
         points: &'a mut [Vec4],
         flags: &'a mut [u8],
@@ -232,8 +231,8 @@ pub(crate) fn blend_attributes(
         }
     }
     if !colors.is_empty() {
-        for channel in 0..4 {
-            let (from, into) = (colors[from][channel], &mut colors[into][channel]);
+        let source = colors[from];
+        for (into, from) in colors[into].iter_mut().zip(source) {
             *into = (f32::from(from) + along * (f32::from(*into) - f32::from(from))).round() as u8;
         }
     }
