@@ -19,7 +19,7 @@ const RECORDS: usize = 15;
 fn passes(criterion: &mut Criterion) {
     // 1.1 million triangles: larger than the caches.
     let mesh = bumpy_sphere(304, 1);
-    let load = |ratio, threads| Stages::load(&mesh, ratio, threads);
+    let load = |ratio, threads| Stages::load(&mesh, ratio, threads).expect("threads start");
     let unclassified = |ratio, threads| {
         let mut stages = load(ratio, threads);
         stages.build_rings();
@@ -59,7 +59,7 @@ fn finish(criterion: &mut Criterion) {
     // As large as what a run leaves to the finish, and as far from the goal.
     let mesh = bumpy_sphere(76, 1);
     let ringed = || {
-        let mut stages = Stages::load(&mesh, 0.7, 1);
+        let mut stages = Stages::load(&mesh, 0.7, 1).expect("a thread is there");
         stages.build_rings();
         stages.classify();
         stages

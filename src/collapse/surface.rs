@@ -70,7 +70,13 @@ pub(crate) struct Surface {
 impl Surface {
     /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to edges of
     /// about unit length. The vertex `v` goes to `rank[v]`, if there is a rank.
-    pub(crate) fn new(mesh: &Mesh, rank: Option<&[u32]>, locked: &[u32], track_origins: bool) -> Self {
+    pub(crate) fn new(
+        mesh: &Mesh,
+        rank: Option<&[u32]>,
+        locked: &[u32],
+        track_origins: bool,
+        workers: &Workers,
+    ) -> Self {
         let scale = unit_scale(mesh);
         let count = mesh.positions().len();
         let place = |vertex: u32| rank.map_or(vertex, |rank| rank[vertex as usize]);
@@ -85,7 +91,7 @@ impl Surface {
                 None => scaled.collect(),
                 Some(rank) => scatter(scaled, rank),
             },
-            faces: ordered_faces(mesh.triangles(), count, rank),
+            faces: ordered_faces(mesh.triangles(), count, rank, workers),
             flags,
             attributes: match rank {
                 None => attributes.clone(),
@@ -270,11 +276,13 @@ impl Surface {
 
         // Blocks of faces are packed in place side by side, and then moved together.
         let map = &map[..];
-        let counts = workers.map(faces.chunks_mut(FACE_BLOCK).collect(), |block| pack_faces(block, map));
+        let length = faces.len().div_ceil(workers.count()).max(1);
+        let counts = workers.map(faces.chunks_mut(length).collect(), |block| pack_faces(block, map));
         let mut kept = 0;
         for (index, count) in counts.into_iter().enumerate() {
-            for face in 0..count {
-                faces.swap(kept + face, index * FACE_BLOCK + face);
+            let first = index * length;
+            if first != kept {
+                (0..count).for_each(|face| faces.swap(kept + face, first + face));
             }
             kept += count;
         }
@@ -419,27 +427,46 @@ fn scatter<T: Copy + Default>(values: impl ExactSizeIterator<Item = T>, rank: &[
 
 /// The triangles with three corners, renamed by `rank`, if there is one, and then sorted into
 /// buckets of 64 vertices by their first corner, so that faces lie in memory as their vertices do.
-fn ordered_faces(triangles: &[[u32; 3]], vertices: usize, rank: Option<&[u32]>) -> Vec<Face> {
+fn ordered_faces(
+    triangles: &[[u32; 3]],
+    vertices: usize,
+    rank: Option<&[u32]>,
+    workers: &Workers,
+) -> Vec<Face> {
     let whole = |&&[a, b, c]: &&[u32; 3]| a != b && b != c && c != a;
     let Some(rank) = rank else {
         let mut faces = Vec::with_capacity(triangles.iter().filter(whole).count());
         faces.extend(triangles.iter().filter(whole).map(|triangle| triangle.map(AtomicU32::new)));
         return faces;
     };
+    // Each worker counts and then places the triangles of a block; within a bucket, blocks follow
+    // each other, so that the order is the same for any number of them.
     let renamed = |vertex: u32| rank[vertex as usize];
     let bucket = |triangle: &[u32; 3]| (renamed(triangle[0]) >> 6) as usize;
-    let mut starts = vec![0u32; (vertices >> 6) + 2];
-    triangles.iter().filter(whole).for_each(|triangle| starts[bucket(triangle) + 1] += 1);
-    for index in 1..starts.len() {
-        starts[index] += starts[index - 1];
+    let blocks: Vec<_> = triangles.chunks(triangles.len().div_ceil(workers.count()).max(1)).collect();
+    let mut counts = workers.map(blocks.clone(), |block| {
+        let mut counts = vec![0u32; (vertices >> 6) + 1];
+        block.iter().filter(whole).for_each(|triangle| counts[bucket(triangle)] += 1);
+        counts
+    });
+    let mut count = 0;
+    for bucket in 0..=vertices >> 6 {
+        for counts in &mut counts {
+            count += std::mem::replace(&mut counts[bucket], count);
+        }
     }
     let mut faces = Vec::new();
-    faces.resize_with(starts[starts.len() - 1] as usize, Face::default);
-    for triangle in triangles.iter().filter(whole) {
-        let start = &mut starts[bucket(triangle)];
-        faces[*start as usize] = triangle.map(|vertex| AtomicU32::new(renamed(vertex)));
-        *start += 1;
-    }
+    faces.resize_with(count as usize, Face::default);
+    let places = &faces[..];
+    workers.map(blocks.into_iter().zip(counts).collect(), |(block, mut starts)| {
+        for triangle in block.iter().filter(whole) {
+            let start = &mut starts[bucket(triangle)];
+            for (corner, &vertex) in places[*start as usize].iter().zip(triangle) {
+                corner.store(renamed(vertex), Relaxed);
+            }
+            *start += 1;
+        }
+    });
     faces
 }
 

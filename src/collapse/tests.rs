@@ -142,7 +142,7 @@ proptest! {
     /// A vertex is flagged if an edge of it has not as many faces in one direction as in the other.
     #[test]
     fn boundary_against_counting(mesh in prop_oneof![torn(), dirty()], lock in any::<bool>()) {
-        let mut surface = Surface::new(&mesh, None, &[], false);
+        let mut surface = Surface::new(&mesh, None, &[], false, &Workers::Caller);
         surface.build_rings(&Workers::Caller);
         let unreferenced = surface.classify(lock, &Workers::Caller);
         let sides = sides(&mesh);

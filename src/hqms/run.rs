@@ -52,7 +52,7 @@ impl<'a> Run<'a> {
         if options.keep_seams && *mesh.attributes() != Attributes::default() {
             locked.extend(seams(mesh));
         }
-        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, options.track_origins);
+        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, options.track_origins, &workers);
         drop(rank);
         surface.build_rings(&workers);
         let unreferenced = surface.classify(options.lock_boundary, &workers);

@@ -11,7 +11,7 @@ use crate::collapse::Rules;
 use crate::collapse::surface::Surface;
 use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
-use crate::workers::Workers;
+use crate::workers::{ThreadsError, Workers};
 
 const RULES: Rules = Rules { any_topology: false, error_limit: f32::INFINITY };
 
@@ -28,16 +28,17 @@ pub struct Stages {
 
 impl Stages {
     /// Copies `mesh` into working form, in a coherent order, on its way to `ratio` of its triangles.
-    pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Self {
+    pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Result<Self, ThreadsError> {
         let rank = rank(mesh, TILE / 8);
-        let surface = Surface::new(mesh, rank.as_deref(), &[], false);
-        Self {
+        let workers = Workers::new(threads)?;
+        let surface = Surface::new(mesh, rank.as_deref(), &[], false, &workers);
+        Ok(Self {
             counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,
             goal: Goal::new(Target::Ratio(ratio), mesh),
-            workers: Workers::new(threads),
+            workers,
             threshold: Threshold::new(),
-        }
+        })
     }
 
     /// Triangles that are left.
