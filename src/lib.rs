@@ -27,6 +27,8 @@
 //! Every computation is a pure function of its input and options: no global state, no environment
 //! variable changes a result, and the number of threads changes nothing but the time.
 
+#![deny(unsafe_code)]
+
 mod collapse;
 #[cfg(feature = "deviation")]
 pub mod deviation;

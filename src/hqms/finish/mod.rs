@@ -9,13 +9,14 @@
 //! This is also where a run ends that is stuck: with [`Rules::any_topology`] the link condition no
 //! longer holds, holes close, and small components vanish whole.
 
+mod relax;
+
 use super::goal::{Counts, Goal};
 use crate::collapse::queue::Queue;
 use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, hash, is_alive, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Edge, Rules};
-use crate::mesh::partition::Partition;
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
 use glam::Vec3A;
@@ -384,7 +385,7 @@ impl<'a> Finish<'a> {
         let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
         let mut doomed = Vec::new();
         if self.rules.any_topology {
-            match coincident(source_ring, target_ring, source_corners, target_corners) {
+            match relax::coincident(source_ring, target_ring, source_corners, target_corners) {
                 Some(faces) => doomed = faces,
                 None => return Outcome::Illegal,
             }
@@ -404,23 +405,6 @@ impl<'a> Finish<'a> {
         self.execute(source, target, &collapse, source_corners);
         self.counts.remove(Counts { faces, vertices: 1 });
         Outcome::Done
-    }
-
-    /// What it costs that faces vanish: the sum over them of the squared distance to what is left,
-    /// taken to be their edge away from the collapsed one. No quadric knows this: two faces that
-    /// come to lie on each other are on the same plane, however far they reach.
-    fn loss(&self, doomed: &[u32], position: Vec3A, collapsed: [u32; 2]) -> f32 {
-        let of_face = |&face: &u32| {
-            let corners = self.surface.faces[face as usize].each_ref().map(|corner| corner.load(Relaxed));
-            let [a, b, c] = corners
-                .map(|vertex| if collapsed.contains(&vertex) { position } else { self.position(vertex) });
-            let longest =
-                (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-            // The mean squared distance of a triangle's points from one of its edges is a sixth of
-            // its squared height.
-            (b - a).cross(c - a).length() * longest / 12.0
-        };
-        doomed.iter().map(of_face).sum()
     }
 
     fn kill(&mut self, face: u32) {
@@ -465,68 +449,6 @@ impl<'a> Finish<'a> {
         );
     }
 
-    /// Gives each fan of faces around `vertex` but the first a vertex of its own: a collapse that
-    /// closes a hole or joins two borders leaves vertices behind at which surfaces only touch. The
-    /// new vertices are added to `around`.
-    fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
-        let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
-        let mut fans = Partition::new(scratch.source_corners.len());
-        let names = (0..).zip(scratch.source.names());
-        let mut ends: Vec<(u32, u32)> =
-            names.flat_map(|(face, (next, previous))| [(next, face), (previous, face)]).collect();
-        ends.sort_unstable();
-        for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            fans.unite(pair[0].1, pair[1].1);
-        }
-        if fans.sets() > 1 {
-            // A fan is named by its first face.
-            let mut owners = Vec::with_capacity(scratch.source_corners.len());
-            for face in 0..scratch.source_corners.len() as u32 {
-                let fan = fans.find(face);
-                owners.push(match fan {
-                    0 => vertex,
-                    _ if fan < face => owners[fan as usize],
-                    _ => self.copy_vertex(vertex),
-                });
-                around.extend((fan == face && fan > 0).then_some(owners[face as usize]));
-            }
-            self.first[vertex as usize] = NONE;
-            self.degrees[vertex as usize] = 0;
-            for (&corner, &owner) in scratch.source_corners.iter().zip(&owners).rev() {
-                self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].store(owner, Relaxed);
-                self.next[corner as usize] = std::mem::replace(&mut self.first[owner as usize], corner);
-                self.degrees[owner as usize] += 1;
-            }
-        }
-        self.scratch = scratch;
-    }
-
-    /// A new vertex where `vertex` is, without faces.
-    fn copy_vertex(&mut self, vertex: u32) -> u32 {
-        fn copy<T: Copy>(values: &mut Vec<T>, index: usize) {
-            values.push(values[index]);
-        }
-        let index = vertex as usize;
-        let name = self.first.len() as u32;
-        let surface = &mut *self.surface;
-        copy(&mut surface.points, index);
-        copy(&mut surface.flags, index);
-        surface.attributes.normals.iter_mut().for_each(|normals| copy(normals, index));
-        surface.attributes.colors.iter_mut().for_each(|colors| copy(colors, index));
-        surface.attributes.uvs.iter_mut().for_each(|uvs| copy(uvs, index));
-        if !surface.merged.is_empty() {
-            surface.merged.push(name);
-        }
-        self.first.push(NONE);
-        self.degrees.push(0);
-        self.quadrics.push(Quadric::default());
-        self.candidates.push(IMPOSSIBLE);
-        self.changed.push(0);
-        self.counts.vertices += 1;
-        name
-    }
-
     /// Takes a vertex without faces off the surface.
     fn bury(&mut self, vertex: u32) {
         let flags = &mut self.surface.flags[vertex as usize];
@@ -569,48 +491,4 @@ impl<'a> Finish<'a> {
             }
         }
     }
-}
-
-/// Whether the collapse leaves every edge it joins with at most one face on each side; and
-/// the faces that would then lie on each other: both go if they face each other, one if not.
-fn coincident<'r>(
-    source: &'r Ring,
-    target: &'r Ring,
-    source_corners: &'r [u32],
-    target_corners: &'r [u32],
-) -> Option<Vec<u32>> {
-    let faces =
-        |ring: &'r Ring, corners: &'r [u32]| ring.names().zip(corners.iter().map(|corner| corner >> 2));
-    let mut doomed = Vec::new();
-    for ((next, previous), face) in faces(source, source_corners) {
-        for (names, other) in faces(target, target_corners) {
-            if names == (next, previous) || names == (previous, next) {
-                doomed.push(face);
-            }
-            if names == (previous, next) {
-                doomed.push(other);
-            }
-        }
-    }
-    doomed.sort_unstable();
-    doomed.dedup();
-    // In how many of the faces that stay `vertex` comes after the ring's vertex, and before.
-    let count = |ring: &'r Ring, corners: &'r [u32], vertex: u32, avoid: u32| {
-        let stays = |face: &u32, names: (u32, u32)| {
-            names.0 != avoid && names.1 != avoid && doomed.binary_search(face).is_err()
-        };
-        let left = faces(ring, corners).filter(|(names, face)| stays(face, *names));
-        left.fold((0, 0), |(after, before), ((next, previous), _)| {
-            (after + u32::from(next == vertex), before + u32::from(previous == vertex))
-        })
-    };
-    let overfull = |vertex: u32| {
-        let of_source = count(source, source_corners, vertex, target.vertex);
-        let of_target = count(target, target_corners, vertex, source.vertex);
-        let joined = of_source != (0, 0) && of_target != (0, 0);
-        joined && (of_source.0 + of_target.0 > 1 || of_source.1 + of_target.1 > 1)
-    };
-    let around = source.next().iter().chain(source.previous());
-    let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));
-    manifold.then_some(doomed)
 }
