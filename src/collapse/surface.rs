@@ -410,10 +410,17 @@ fn unit_scale(mesh: &Mesh) -> f32 {
     }
     let middle = lengths.len() / 2;
     let (_, &mut length, _) = lengths.select_nth_unstable_by(middle, f64::total_cmp);
+    let exponent = -length.log2().floor();
     // The bits of numbers that are not negative order as these do, and compare four at a time.
     let largest = mesh.positions().as_flattened().iter().map(|x| x.abs().to_bits().cast_signed()).max();
-    let room = 100.0 - f64::from(f32::from_bits(largest.unwrap_or(0).cast_unsigned())).log2().ceil();
-    f32::exp2((-length.log2().floor()).min(room).clamp(-126.0, 126.0) as f32)
+    let room = |largest: f32| 100.0 - f64::from(largest).log2().ceil();
+    let mut room_left = room(f32::from_bits(largest.unwrap_or(0).cast_unsigned()));
+    if room_left < exponent {
+        // Vertices that no triangle uses must not set the scale.
+        let used = mesh.triangles().as_flattened().iter().flat_map(|&v| mesh.positions()[v as usize]);
+        room_left = room(used.map(f32::abs).fold(0.0, f32::max));
+    }
+    f32::exp2(exponent.min(room_left).clamp(-126.0, 126.0) as f32)
 }
 
 /// `values[v]` goes to `rank[v]`.

@@ -134,12 +134,13 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Whether what is left is for the finish. The paper's selection goes all the way by itself.
+    /// Whether what is left is for the finish. The paper's selection goes on by itself until so few
+    /// vertices are left that its order would lose corners.
     fn is_near(&self, goal: Goal) -> bool {
         let vertices = self.counts.vertices;
         let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= FINISH_RATIO);
-        self.options.selection == Selection::SampledThreshold
-            && (vertices <= FEW_VERTICES || near && vertices <= FINISH_VERTICES)
+        let finishes_early = self.options.selection == Selection::SampledThreshold;
+        vertices <= FEW_VERTICES || finishes_early && near && vertices <= FINISH_VERTICES
     }
 
     fn pass(
