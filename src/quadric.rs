@@ -107,8 +107,8 @@ impl Quadric {
     }
 }
 
-/// A [`Quadric`] in the making: the rows of the whole matrix, as vectors of four lanes. Adding a
-/// plane to them takes a third of the instructions that it takes with six numbers.
+/// A [`Quadric`] in the making: the rows of the whole matrix, as vectors of four lanes: adding a
+/// plane to them takes fewer instructions than to six numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct QuadricSum {
     rows: [Vec3A; 3],

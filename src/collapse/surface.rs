@@ -184,11 +184,8 @@ impl Surface {
         });
     }
 
-    /// Gives vertices their [`flag::BOUNDARY`], and locks them if asked; buries those without a face, and counts these. Needs the rings.
-    ///
-    /// In a closed and oriented ring, each neighbour is once the next corner and once the previous
-    /// one; so the hashes of the next less those of the previous cancel, and elsewhere they do so
-    /// once in 2³² rings by chance.
+    /// Gives vertices their [`flag::BOUNDARY`], and locks them if asked; buries those without a
+    /// face, and counts these. Needs the rings.
     pub(crate) fn classify(&mut self, lock_boundary: bool, workers: &Workers) -> usize {
         let Self { faces, flags, offsets, incidence, merged, .. } = self;
         let incidence = incidence.as_flattened();
@@ -199,11 +196,7 @@ impl Surface {
             let mut unreferenced = 0;
             for (flags, ends) in flags.iter_mut().zip(offsets[first..].windows(2)) {
                 let ring = &incidence[ends[0] as usize..ends[1] as usize];
-                let balance = ring.iter().fold(0u32, |balance, corner| {
-                    let (next, previous) = neighbours(faces, corner.load(Relaxed));
-                    balance.wrapping_add(hash(next)).wrapping_sub(hash(previous))
-                });
-                if balance != 0 {
+                if is_open(faces, ring.iter().map(|corner| corner.load(Relaxed))) {
                     *flags |= flag::BOUNDARY | if lock_boundary { flag::LOCKED } else { 0 };
                 }
                 if ring.is_empty() {
@@ -511,9 +504,23 @@ fn only_used<'a, T>(values: &'a [T], map: &'a [u32]) -> impl Iterator<Item = &'a
     values.iter().zip(map).filter(|(_, successor)| **successor != NONE).map(|(value, _)| value)
 }
 
+/// Whether a ring, given by its corners, lies on an edge that [`flag::BOUNDARY`] is for.
+///
+/// In a closed and oriented ring, each neighbour is once the next corner and once the previous one;
+/// so the hashes of the next less those of the previous cancel, and elsewhere they do so once in 2³²
+/// rings by chance.
+#[inline(always)]
+pub(crate) fn is_open(faces: &[Face], corners: impl Iterator<Item = u32>) -> bool {
+    let balance = corners.fold(0u32, |balance, corner| {
+        let (next, previous) = neighbours(faces, corner);
+        balance.wrapping_add(hash(next)).wrapping_sub(hash(previous))
+    });
+    balance != 0
+}
+
 /// A mixture of the bits of a vertex, not linear, so that sums of them say which were added.
 #[inline(always)]
-pub(crate) fn hash(vertex: u32) -> u32 {
+fn hash(vertex: u32) -> u32 {
     let mixed = vertex.wrapping_mul(0x9E37_79B1);
     mixed ^ mixed >> 15
 }

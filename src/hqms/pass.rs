@@ -1,8 +1,8 @@
 //! One pass of the default selection: every collapse cheaper than a sampled quantile.
 //!
 //! Section 3.3 of the paper streams the vertices through a heap of 15 records and executes what
-//! comes out. So small a heap gives nearly no global order: the measured error is twice that of a
-//! full sort. A threshold that is a quantile of all costs, estimated from a few thousand of them,
+//! comes out. So small a heap gives nearly no global order: the measured error is half as much
+//! again as that of a full sort. A threshold that is a quantile of all costs, estimated from a few thousand of them,
 //! gives the order of a full sort for the price of a comparison, and needs no record at all.
 //! What is kept of the paper's pipeline: quadrics from the faces of the pass alone, the cost at the
 //! neighbour with the placement solved only when a collapse is executed, each vertex in at most
@@ -203,7 +203,7 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
 }
 
 /// One pass that takes the cheapest collapses in their order, each vertex at most once: for the
-/// last few percent of a large surface, where a threshold would be too coarse.
+/// last tenth of a large surface, where a threshold would be too coarse.
 pub(crate) fn ranked_pass(
     surface: &mut Surface,
     counts: Counts,

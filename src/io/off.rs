@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::source::{Source, check_vertex_count};
-use super::text::{TextColors, floats, number, quoted, words};
+use super::text::{TextColors, floats, number, quoted, words, write_elements};
 use super::{Fan, ReadError, finish};
 use crate::mesh::{Attributes, Mesh};
 
@@ -137,22 +137,8 @@ pub(super) fn write(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
     let flag = |present: bool, flag: &'static str| if present { flag } else { "" };
     let (st, c, n) = (flag(uvs.is_some(), "ST"), flag(colors.is_some(), "C"), flag(normals.is_some(), "N"));
     writeln!(writer, "{st}{c}{n}OFF\n{} {} 0", mesh.positions().len(), mesh.triangles().len())?;
-    for (vertex, [x, y, z]) in mesh.positions().iter().enumerate() {
-        write!(writer, "{x:?} {y:?} {z:?}")?;
-        if let Some([x, y, z]) = normals.as_ref().map(|normals| normals[vertex]) {
-            write!(writer, " {x:?} {y:?} {z:?}")?;
-        }
-        if let Some(color) = colors.as_ref().map(|colors| colors[vertex]) {
-            let [red, green, blue, alpha] = color.map(|channel| f32::from(channel) / 255.0);
-            write!(writer, " {red:?} {green:?} {blue:?} {alpha:?}")?;
-        }
-        if let Some([u, v]) = uvs.as_ref().map(|uvs| uvs[vertex]) {
-            write!(writer, " {u:?} {v:?}")?;
-        }
-        writer.write_all(b"\n")?;
-    }
-    for [a, b, c] in mesh.triangles() {
-        writeln!(writer, "3 {a} {b} {c}")?;
-    }
-    Ok(())
+    write_elements(mesh, writer, |writer, color| {
+        let [red, green, blue, alpha] = color.map(|channel| f32::from(channel) / 255.0);
+        write!(writer, " {red:?} {green:?} {blue:?} {alpha:?}")
+    })
 }

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use super::source::{Source, check_vertex_count};
-use super::text::{number, quoted, words};
+use super::text::{number, quoted, words, write_elements};
 use super::{Encoding, Fan, ReadError, Strip, WriteError, finish};
 use crate::mesh::{Attributes, Mesh};
 
@@ -534,24 +534,9 @@ pub(super) fn write(mesh: &Mesh, encoding: Encoding, writer: &mut impl Write) ->
 }
 
 fn write_ascii(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
-    let Attributes { normals, colors, uvs } = mesh.attributes();
-    for (vertex, [x, y, z]) in mesh.positions().iter().enumerate() {
-        write!(writer, "{x:?} {y:?} {z:?}")?;
-        if let Some([x, y, z]) = normals.as_ref().map(|normals| normals[vertex]) {
-            write!(writer, " {x:?} {y:?} {z:?}")?;
-        }
-        if let Some([red, green, blue, alpha]) = colors.as_ref().map(|colors| colors[vertex]) {
-            write!(writer, " {red} {green} {blue} {alpha}")?;
-        }
-        if let Some([u, v]) = uvs.as_ref().map(|uvs| uvs[vertex]) {
-            write!(writer, " {u:?} {v:?}")?;
-        }
-        writer.write_all(b"\n")?;
-    }
-    for [a, b, c] in mesh.triangles() {
-        writeln!(writer, "3 {a} {b} {c}")?;
-    }
-    Ok(())
+    write_elements(mesh, writer, |writer, [red, green, blue, alpha]| {
+        write!(writer, " {red} {green} {blue} {alpha}")
+    })
 }
 
 fn write_binary(

@@ -1,6 +1,9 @@
 //! What the text formats share: words, numbers, and colours whose range only the whole file tells.
 
+use std::io::{self, Write};
 use std::str::FromStr;
+
+use crate::mesh::{Attributes, Mesh};
 
 /// The words of a line.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
@@ -77,4 +80,31 @@ impl TextColors {
             colors
         })
     }
+}
+
+/// Writes a line a vertex (position, normal, colour as `write_color` has it, texture coordinates) and
+/// then a line a triangle: the body of PLY and of OFF.
+pub(super) fn write_elements<W: Write>(
+    mesh: &Mesh,
+    writer: &mut W,
+    write_color: impl Fn(&mut W, [u8; 4]) -> io::Result<()>,
+) -> io::Result<()> {
+    let Attributes { normals, colors, uvs } = mesh.attributes();
+    for (vertex, [x, y, z]) in mesh.positions().iter().enumerate() {
+        write!(writer, "{x:?} {y:?} {z:?}")?;
+        if let Some([x, y, z]) = normals.as_ref().map(|normals| normals[vertex]) {
+            write!(writer, " {x:?} {y:?} {z:?}")?;
+        }
+        if let Some(color) = colors.as_ref().map(|colors| colors[vertex]) {
+            write_color(writer, color)?;
+        }
+        if let Some([u, v]) = uvs.as_ref().map(|uvs| uvs[vertex]) {
+            write!(writer, " {u:?} {v:?}")?;
+        }
+        writer.write_all(b"\n")?;
+    }
+    for [a, b, c] in mesh.triangles() {
+        writeln!(writer, "3 {a} {b} {c}")?;
+    }
+    Ok(())
 }
