@@ -29,6 +29,8 @@
 
 #![deny(unsafe_code)]
 
+#[cfg(feature = "capi")]
+pub mod capi;
 mod collapse;
 #[cfg(feature = "deviation")]
 pub mod deviation;
@@ -46,7 +48,8 @@ mod quadric;
 mod workers;
 
 pub use hqms::{
-    Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, build_levels, simplify,
+    Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, build_levels,
+    coarsest_within, simplify,
 };
 pub use mesh::{Attributes, Mesh, MeshError};
 pub use monitor::{Cancelled, Monitor};

@@ -20,6 +20,8 @@ pub(crate) struct Rules {
     pub(crate) any_topology: bool,
     /// The largest estimated error, in the units of the surface.
     pub(crate) error_limit: f32,
+    /// No vertex moves: the source goes to where the target is.
+    pub(crate) half_edge: bool,
 }
 
 /// The two ends of a collapse: `source` goes away, `target` stays and moves.
@@ -64,17 +66,16 @@ impl Edge<'_> {
         let from = Vec3A::from_vec4(self.source_point);
         let into = Vec3A::from_vec4(self.target_point);
         let edge = into - from;
-        let position = if self.target_locked {
-            into
-        } else {
-            from + place(&self.source.quadric, &self.target.quadric, edge).offset
-        };
+        let stays = self.target_locked || rules.half_edge;
+        let position =
+            if stays { into } else { from + place(&self.source.quadric, &self.target.quadric, edge).offset };
         // What is checked is the place after rounding: far from the origin that is another one.
         let from_source = position - from;
-        let distance_squared = f32::max(
-            fold(self.source, self.target.vertex, from_source)?,
-            fold(self.target, self.source.vertex, position - into)?,
-        );
+        let mut distance_squared = fold(self.source, self.target.vertex, from_source)?;
+        if !stays {
+            let of_target = fold(self.target, self.source.vertex, position - into)?;
+            distance_squared = distance_squared.max(of_target);
+        }
         let error = self.source_point.w.max(self.target_point.w) + distance_squared.sqrt();
         if error > rules.error_limit || !position.is_finite() {
             return None;

@@ -5,7 +5,7 @@
 //! time as the map of [`Surface::compact`].
 
 use super::tile::Tile;
-use crate::mesh::{Attributes, Mesh, MeshError};
+use crate::mesh::{Attributes, Mesh, MeshError, select};
 use crate::workers::Workers;
 use glam::{Vec3, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -46,6 +46,23 @@ pub(crate) struct Snapshot {
     flags: Vec<u8>,
     attributes: Attributes,
     origins: Option<Vec<u32>>,
+    sources: Vec<u32>,
+}
+
+/// What is left of a mesh: see [`Surface::to_mesh`].
+pub(crate) struct Remains {
+    pub(crate) mesh: Mesh,
+    /// For each vertex of the input the vertex it is in now, or [`NONE`], if that was tracked.
+    pub(crate) origins: Option<Vec<u32>>,
+    /// For each vertex the one of the input that it was, if that was tracked.
+    pub(crate) sources: Option<Vec<u32>>,
+}
+
+/// What to remember of where vertices came from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Track {
+    pub(crate) origins: bool,
+    pub(crate) sources: bool,
 }
 
 /// A mesh in the course of its simplification.
@@ -60,6 +77,8 @@ pub(crate) struct Surface {
     pub(crate) merged: Vec<u32>,
     /// For each vertex of the input the vertex it is in now, or [`NONE`].
     origins: Option<Vec<u32>>,
+    /// For each vertex the one of the input that it was; empty when nobody asked.
+    pub(crate) sources: Vec<u32>,
     /// Ring of `v`: `incidence[offsets[v]..offsets[v + 1]]`, as `face << 2 | corner`.
     offsets: Vec<u32>,
     incidence: Vec<Face>,
@@ -74,7 +93,7 @@ impl Surface {
         mesh: &Mesh,
         rank: Option<&[u32]>,
         locked: &[u32],
-        track_origins: bool,
+        track: Track,
         workers: &Workers,
     ) -> Self {
         let scale = unit_scale(mesh);
@@ -101,8 +120,13 @@ impl Surface {
                     uvs: attributes.uvs.as_ref().map(|uv| scatter(uv.iter().copied(), rank)),
                 },
             },
-            merged: if track_origins { (0..count as u32).collect() } else { Vec::new() },
-            origins: track_origins.then(|| (0..count as u32).map(place).collect()),
+            merged: if track.origins { (0..count as u32).collect() } else { Vec::new() },
+            origins: track.origins.then(|| (0..count as u32).map(place).collect()),
+            sources: match rank {
+                _ if !track.sources => Vec::new(),
+                None => (0..count as u32).collect(),
+                Some(rank) => scatter(0..count as u32, rank),
+            },
             offsets: Vec::new(),
             incidence: Vec::new(),
             scale,
@@ -242,7 +266,7 @@ impl Surface {
     /// Drops dead vertices and faces, keeping the order of the others, and ends the pass: no
     /// vertex is used any more. The rings are lost.
     pub(crate) fn compact(&mut self, workers: &Workers) {
-        let Self { points, faces, flags, attributes, merged, origins, offsets: map, .. } = self;
+        let Self { points, faces, flags, attributes, merged, origins, sources, offsets: map, .. } = self;
         map.clear();
         map.reserve(points.len());
         let mut kept = 0;
@@ -260,6 +284,9 @@ impl Surface {
             merged.extend(0..kept);
         }
         retain_alive(points, flags);
+        if !sources.is_empty() {
+            retain_alive(sources, flags);
+        }
         let Attributes { normals, colors, uvs } = attributes;
         normals.iter_mut().for_each(|normals| retain_alive(normals, flags));
         colors.iter_mut().for_each(|colors| retain_alive(colors, flags));
@@ -282,36 +309,44 @@ impl Surface {
         faces.truncate(kept);
     }
 
-    /// The surface as a mesh in the scale of the input, without vertices that no face uses; and for
-    /// each vertex of the input the vertex it is in, if that was tracked.
-    pub(crate) fn to_mesh(&self) -> Result<(Mesh, Option<Vec<u32>>), MeshError> {
+    /// The surface as a mesh in the scale of the input, without vertices that no face uses. If no
+    /// vertex has moved and the sources are known, positions and attributes are those of `input`, bit for
+    /// bit.
+    pub(crate) fn to_mesh(&self, unmoved: Option<&Mesh>) -> Result<Remains, MeshError> {
         let mut map = vec![NONE; self.points.len()];
         let alive = || self.faces.iter().filter(|face| is_alive(face));
         alive().flatten().for_each(|corner| map[corner.load(Relaxed) as usize] = 0);
-        let mut used = 0;
-        for successor in map.iter_mut().filter(|successor| **successor == 0) {
-            *successor = used;
-            used += 1;
+        let count = map.iter().filter(|successor| **successor == 0).count();
+        let mut used = Vec::with_capacity(count);
+        for (successor, vertex) in map.iter_mut().zip(0..).filter(|(successor, _)| **successor == 0) {
+            *successor = used.len() as u32;
+            used.push(vertex);
         }
-        let unscale = 1.0 / self.scale;
         let mut triangles = Vec::with_capacity(alive().count());
         triangles
             .extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
-        let mut positions = Vec::with_capacity(used as usize);
-        positions.extend(only_used(&self.points, &map).map(|&point| {
-            // An optimal placement may lie a little beyond the largest number there is.
-            let position = point.truncate() * unscale;
-            position.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX)).to_array()
-        }));
-        let attributes = Attributes {
-            normals: self.attributes.normals.as_ref().map(|n| only_used(n, &map).copied().collect()),
-            colors: self.attributes.colors.as_ref().map(|c| only_used(c, &map).copied().collect()),
-            uvs: self.attributes.uvs.as_ref().map(|uv| only_used(uv, &map).copied().collect()),
+        let sources = (!self.sources.is_empty()).then(|| select(&self.sources, &used));
+        let (positions, attributes) = match (unmoved, &sources) {
+            (Some(input), Some(sources)) => {
+                (select(input.positions(), sources), input.attributes().select(sources))
+            }
+            _ => (self.positions(&used), self.attributes.select(&used)),
         };
         let into =
             |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
         let origins = self.origins.as_ref().map(|origins| origins.iter().map(into).collect());
-        Ok((Mesh::with_attributes(positions, triangles, attributes)?, origins))
+        Ok(Remains { mesh: Mesh::with_attributes(positions, triangles, attributes)?, origins, sources })
+    }
+
+    /// The positions of `vertices`, in the scale of the input.
+    fn positions(&self, vertices: &[u32]) -> Vec<[f32; 3]> {
+        let unscale = 1.0 / self.scale;
+        let unscaled = |&vertex: &u32| {
+            // An optimal placement may lie a little beyond the largest number there is.
+            let position = self.points[vertex as usize].truncate() * unscale;
+            position.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX)).to_array()
+        };
+        vertices.iter().map(unscaled).collect()
     }
 
     /// What [`restore`](Self::restore) needs to come back to a compacted surface as it is.
@@ -323,6 +358,7 @@ impl Surface {
             flags: self.flags.clone(),
             attributes: self.attributes.clone(),
             origins: self.origins.clone(),
+            sources: self.sources.clone(),
         }
     }
 
@@ -336,6 +372,7 @@ impl Surface {
         self.flags = snapshot.flags;
         self.attributes = snapshot.attributes;
         self.origins = snapshot.origins;
+        self.sources = snapshot.sources;
     }
 
     /// Gives the rings' memory back.
@@ -498,10 +535,6 @@ fn retain_alive<T: Copy>(values: &mut Vec<T>, flags: &[u8]) {
         kept += usize::from(flags & flag::DEAD == 0);
     }
     values.truncate(kept);
-}
-
-fn only_used<'a, T>(values: &'a [T], map: &'a [u32]) -> impl Iterator<Item = &'a T> {
-    values.iter().zip(map).filter(|(_, successor)| **successor != NONE).map(|(value, _)| value)
 }
 
 /// Whether a ring, given by its corners, lies on an edge that [`flag::BOUNDARY`] is for.

@@ -59,6 +59,18 @@ pub enum Topology {
     Keep,
 }
 
+/// Where the vertex of a collapsed edge goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Placement {
+    /// Where the error is least: a new vertex.
+    #[default]
+    Optimal,
+    /// To one of the edge's ends: a half-edge collapse. Every vertex of the result is then a vertex of
+    /// the input, attributes included, bit for bit, and its index there is in [`Simplified::sources`].
+    /// The error is larger, by half on scans.
+    Existing,
+}
+
 /// How to simplify.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -68,6 +80,8 @@ pub struct Options {
     pub selection: Selection,
     /// What may happen to the topology.
     pub topology: Topology,
+    /// Where the vertex of a collapsed edge goes.
+    pub placement: Placement,
     /// Vertices of the border stay, bit for bit.
     pub lock_boundary: bool,
     /// Where the mesh has attributes, vertices at one place stay, bit for bit: seams of textures and
@@ -80,6 +94,8 @@ pub struct Options {
     pub threads: usize,
     /// Fill [`Simplified::origins`].
     pub track_origins: bool,
+    /// Fill [`Simplified::sources`], whatever the placement.
+    pub track_sources: bool,
 }
 
 impl Options {
@@ -89,11 +105,13 @@ impl Options {
             target,
             selection: Selection::default(),
             topology: Topology::default(),
+            placement: Placement::default(),
             lock_boundary: false,
             keep_seams: true,
             locked: Vec::new(),
             threads: 0,
             track_origins: false,
+            track_sources: false,
         }
     }
 }
@@ -125,6 +143,9 @@ pub struct Simplified {
     pub topology_changed: bool,
     /// For each input vertex the output vertex it went into, `u32::MAX` where it vanished.
     pub origins: Option<Vec<u32>>,
+    /// For each output vertex the input vertex that it was before others went into it. A vertex at which
+    /// the surface was parted (see [`Topology::RelaxIfStuck`]) has several output vertices.
+    pub sources: Option<Vec<u32>>,
     /// Passes over the mesh.
     pub passes: usize,
 }
@@ -182,4 +203,18 @@ pub fn build_levels(
         levels.push(run.result(stopped_by)?);
     }
     Ok(levels)
+}
+
+/// Which level of a chain to draw: the coarsest whose error is at most `max_error`; `None` if none is so
+/// good. `errors` are those of the levels ([`Simplified::error`]), from fine to coarse, all in units of the
+/// positions.
+///
+/// Seen by a perspective camera from `distance`, with a vertical field of view of `fov` radians on a
+/// screen of `height` pixels, an error of `pixels` on the screen is one of
+/// `pixels * distance * 2 * tan(fov / 2) / height`.
+pub fn coarsest_within(
+    mut errors: impl DoubleEndedIterator<Item = f32> + ExactSizeIterator,
+    max_error: f32,
+) -> Option<usize> {
+    errors.rposition(|error| error <= max_error)
 }

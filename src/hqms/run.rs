@@ -4,10 +4,12 @@ use super::finish::Finish;
 use super::goal::{Counts, Goal};
 use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
-use super::{Options, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, replacement};
+use super::{
+    Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, replacement,
+};
 use crate::collapse::Rules;
-use crate::collapse::surface::{Surface, flag};
-use crate::mesh::weld::first_equal;
+use crate::collapse::surface::{Remains, Surface, Track, flag};
+use crate::mesh::weld::shared_places;
 use crate::mesh::{Attributes, Mesh};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
@@ -50,9 +52,11 @@ impl<'a> Run<'a> {
         let workers = Workers::new(options.threads)?;
         let mut locked = options.locked.clone();
         if options.keep_seams && *mesh.attributes() != Attributes::default() {
-            locked.extend(seams(mesh));
+            locked.extend(shared_places(mesh));
         }
-        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, options.track_origins, &workers);
+        let half_edge = options.placement == Placement::Existing;
+        let track = Track { origins: options.track_origins, sources: options.track_sources || half_edge };
+        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, track, &workers);
         drop(rank);
         surface.build_rings(&workers);
         let unreferenced = surface.classify(options.lock_boundary, &workers);
@@ -84,7 +88,11 @@ impl<'a> Run<'a> {
             Target::MaxError(limit) => limit * self.surface.scale(),
             _ => f32::INFINITY,
         };
-        let rules = Rules { any_topology: false, error_limit };
+        let rules = Rules {
+            any_topology: false,
+            error_limit,
+            half_edge: self.options.placement == Placement::Existing,
+        };
         let start = self.counts;
         let mut report = |counts: Counts| {
             monitor.report(share.start + (share.end - share.start) * progress(goal, start, counts))
@@ -198,26 +206,14 @@ impl<'a> Run<'a> {
 
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
-        let (mesh, origins) = self.surface.to_mesh()?;
+        let unmoved = (self.options.placement == Placement::Existing).then_some(self.input);
+        let Remains { mesh, origins, sources } = self.surface.to_mesh(unmoved)?;
         let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.
         let error = (largest / self.surface.scale()).min(f32::MAX);
         let Self { locked, topology_changed, passes, .. } = *self;
-        Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes })
+        Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, passes })
     }
-}
-
-/// The vertices that are not alone at their place.
-fn seams(mesh: &Mesh) -> Vec<u32> {
-    let first = first_equal(mesh.positions());
-    let mut shared = vec![false; first.len()];
-    for (vertex, &first) in first.iter().enumerate() {
-        if first as usize != vertex {
-            shared[vertex] = true;
-            shared[first as usize] = true;
-        }
-    }
-    (0..).zip(shared).filter(|(_, shared)| *shared).map(|(vertex, _)| vertex).collect()
 }
 
 /// How far `now` is from `start` to the goal.

@@ -8,12 +8,12 @@ use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
 use super::{Target, replacement};
 use crate::collapse::Rules;
-use crate::collapse::surface::Surface;
+use crate::collapse::surface::{Surface, Track};
 use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
 use crate::workers::{ThreadsError, Workers};
 
-const RULES: Rules = Rules { any_topology: false, error_limit: f32::INFINITY };
+const RULES: Rules = Rules { any_topology: false, error_limit: f32::INFINITY, half_edge: false };
 
 /// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`], then for
 /// each pass [`Stages::build_rings`], [`Stages::classify`] (in the first pass only), one of the passes
@@ -31,7 +31,7 @@ impl Stages {
     pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Result<Self, ThreadsError> {
         let rank = rank(mesh, TILE / 8);
         let workers = Workers::new(threads)?;
-        let surface = Surface::new(mesh, rank.as_deref(), &[], false, &workers);
+        let surface = Surface::new(mesh, rank.as_deref(), &[], Track::default(), &workers);
         Ok(Self {
             counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,
@@ -92,6 +92,6 @@ impl Stages {
 
     /// The mesh as it is now.
     pub fn to_mesh(&self) -> Result<Mesh, crate::MeshError> {
-        self.surface.to_mesh().map(|(mesh, _)| mesh)
+        self.surface.to_mesh(None).map(|remains| remains.mesh)
     }
 }

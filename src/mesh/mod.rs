@@ -33,6 +33,22 @@ pub struct Attributes {
     pub uvs: Option<Vec<[f32; 2]>>,
 }
 
+impl Attributes {
+    /// Those of `vertices`, in that order.
+    pub(crate) fn select(&self, vertices: &[u32]) -> Self {
+        Self {
+            normals: self.normals.as_deref().map(|normals| select(normals, vertices)),
+            colors: self.colors.as_deref().map(|colors| select(colors, vertices)),
+            uvs: self.uvs.as_deref().map(|uvs| select(uvs, vertices)),
+        }
+    }
+}
+
+/// The values at `indices`, in that order.
+pub(crate) fn select<T: Copy>(values: &[T], indices: &[u32]) -> Vec<T> {
+    indices.iter().map(|&index| values[index as usize]).collect()
+}
+
 /// Why buffers do not make a mesh. Positions in the lists count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::topology::is_face;
-use super::{Attributes, Mesh};
+use super::{Mesh, select};
 
 /// Which vertices are at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -63,28 +63,19 @@ impl Mesh {
             let first = map[vertex] as usize;
             if first == vertex {
                 map[vertex] = kept.len() as u32;
-                kept.push(vertex);
+                kept.push(vertex as u32);
             } else {
                 map[vertex] = map[first];
             }
         }
         let triangles = self.triangles().iter().map(|triangle| triangle.map(|vertex| map[vertex as usize]));
-        let Attributes { normals, colors, uvs } = self.attributes();
         let mesh = Mesh {
             positions: select(self.positions(), &kept),
             triangles: triangles.filter(is_face).collect(),
-            attributes: Attributes {
-                normals: normals.as_deref().map(|normals| select(normals, &kept)),
-                colors: colors.as_deref().map(|colors| select(colors, &kept)),
-                uvs: uvs.as_deref().map(|uvs| select(uvs, &kept)),
-            },
+            attributes: self.attributes().select(&kept),
         };
         Ok(Welded { mesh, map })
     }
-}
-
-fn select<T: Copy>(values: &[T], kept: &[usize]) -> Vec<T> {
-    kept.iter().map(|&index| values[index]).collect()
 }
 
 /// For each position the index of the first one equal to it.
@@ -105,6 +96,19 @@ pub(crate) fn first_equal(positions: &[[f32; 3]]) -> Vec<u32> {
         }
     }
     first
+}
+
+/// The vertices that are not alone at their place.
+pub(crate) fn shared_places(mesh: &Mesh) -> Vec<u32> {
+    let first = first_equal(mesh.positions());
+    let mut shared = vec![false; first.len()];
+    for (vertex, &first) in first.iter().enumerate() {
+        if first as usize != vertex {
+            shared[vertex] = true;
+            shared[first as usize] = true;
+        }
+    }
+    (0..).zip(shared).filter(|(_, shared)| *shared).map(|(vertex, _)| vertex).collect()
 }
 
 /// For each position the first kept one within `tolerance`; itself where it is kept.

@@ -266,10 +266,16 @@ impl<'a> Finish<'a> {
         self.surface.flags[vertex as usize] & flag::LOCKED != 0
     }
 
-    /// The cost of the edge, the same from both of its ends to the last bit.
+    /// The cost of the edge for its end `a`. Where vertices move it is the same from both ends to the
+    /// last bit; where they do not, it is that of `a` going to `b`.
     fn cost(&self, a: u32, b: u32) -> f32 {
         if self.is_hub(a) || self.is_hub(b) {
             return f32::INFINITY;
+        }
+        if self.rules.half_edge {
+            let edge = self.position(b) - self.position(a);
+            let cost = if self.is_locked(a) { f32::INFINITY } else { self.quadrics[a as usize].at(edge) };
+            return if cost.is_nan() { f32::INFINITY } else { cost };
         }
         let (a, b) = (a.min(b), a.max(b));
         let edge = self.position(b) - self.position(a);
@@ -469,7 +475,12 @@ impl<'a> Finish<'a> {
             self.gather_neighbours(vertex, &mut ring);
             let best = self.cheapest(vertex, &ring, None, |finish, candidate| {
                 if finish.changed[candidate.partner as usize] != finish.stamp {
-                    beyond.push((candidate.partner, Candidate { partner: vertex, ..candidate }));
+                    let cost = if finish.rules.half_edge {
+                        finish.cost(candidate.partner, vertex)
+                    } else {
+                        candidate.cost
+                    };
+                    beyond.push((candidate.partner, Candidate { cost, partner: vertex }));
                 }
             });
             self.set(vertex, best);

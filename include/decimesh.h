@@ -1,0 +1,1059 @@
+/* decimesh: triangle-mesh simplification. The C ABI.
+ *
+ * Generated from src/capi/ by cbindgen; `UPDATE_HEADER=1 cargo test --test header` writes it anew.
+ *
+ * A call that can fail returns a decimesh_status. Where that is not DECIMESH_OK, nothing was written through
+ * any out-parameter, and decimesh_last_error_message() says what is wrong and where. What a call lists as
+ * "Fails with _NULL" is DECIMESH_ERROR_NULL; any may also fail with DECIMESH_ERROR_PANIC, a bug in decimesh.
+ *
+ * Handles (decimesh_mesh, decimesh_levels) are immutable once made: const ones may be used from many threads
+ * at once. Who makes one ends it with its _destroy function; pointers into it end with it.
+ *
+ * Structs begin with struct_size, which their _init functions set: programs keep working with newer and
+ * older libraries. Enumerations are integers, and checked. Buffers need no alignment.
+ *
+ * Results depend on the input and the options alone: not on the number of threads, nor the language.
+ */
+
+#ifndef DECIMESH_H
+#define DECIMESH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/**
+ * Changes when a call changes its meaning or goes away; with it the name of the shared library.
+ */
+#define DECIMESH_VERSION_MAJOR 0
+
+/**
+ * Changes when calls come to it.
+ */
+#define DECIMESH_VERSION_MINOR 1
+
+/**
+ * Changes with every release.
+ */
+#define DECIMESH_VERSION_PATCH 0
+
+/**
+ * Levels of detail of one mesh, from fine to coarse: immutable.
+ *
+ * A const decimesh_levels* may be used from many threads at once.
+ */
+typedef struct decimesh_levels decimesh_levels;
+
+/**
+ * A triangle mesh: positions, triangles and attributes, validated when it was made and immutable since.
+ *
+ * A const decimesh_mesh* may be used from many threads at once. It is ended by decimesh_mesh_destroy(),
+ * unless it belongs to a decimesh_levels.
+ */
+typedef struct decimesh_mesh decimesh_mesh;
+
+/**
+ * What became of a call: DECIMESH_OK, or why it failed. A value is never given a second meaning.
+ *
+ * Where it is not DECIMESH_OK, nothing was written through any out-parameter, and
+ * decimesh_last_error_message() says what is wrong and where.
+ */
+typedef int32_t decimesh_status;
+
+/**
+ * The type of an index.
+ */
+typedef int32_t decimesh_index_type;
+
+/**
+ * A mesh in buffers of the caller's, which a call only reads.
+ *
+ * Strides are the bytes from one vertex to the next, so that interleaved buffers serve as they are;
+ * 0 means that elements follow each other without a gap. No alignment is asked for.
+ * Attributes are NULL where there are none.
+ */
+typedef struct decimesh_buffers {
+    /**
+     * sizeof(decimesh_buffers), as decimesh_buffers_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * DECIMESH_INDEX_U16 or DECIMESH_INDEX_U32.
+     */
+    decimesh_index_type index_type;
+    /**
+     * x, y and z of each vertex: finite.
+     */
+    const float *positions;
+    /**
+     * 0, or at least 12.
+     */
+    size_t positions_stride;
+    /**
+     * Vertices: at least 1, fewer than 2^32.
+     */
+    size_t vertex_count;
+    /**
+     * Three indices a triangle, counter-clockwise from outside: each below vertex_count.
+     */
+    const void *indices;
+    /**
+     * Indices: at least 3, a multiple of 3, fewer than 3 * 2^30.
+     */
+    size_t index_count;
+    /**
+     * Unit normals, x, y and z: finite; or NULL.
+     */
+    const float *normals;
+    /**
+     * 0, or at least 12.
+     */
+    size_t normals_stride;
+    /**
+     * Texture coordinates, u and v: finite; or NULL.
+     */
+    const float *uvs;
+    /**
+     * 0, or at least 8.
+     */
+    size_t uvs_stride;
+    /**
+     * Colours: red, green, blue and alpha, 0 to 255; or NULL.
+     */
+    const uint8_t *colors;
+    /**
+     * 0, or at least 4.
+     */
+    size_t colors_stride;
+} decimesh_buffers;
+
+/**
+ * A mesh in buffers of the caller's, which a call may overwrite. Otherwise as decimesh_buffers.
+ */
+typedef struct decimesh_mutable_buffers {
+    /**
+     * sizeof(decimesh_mutable_buffers), as decimesh_mutable_buffers_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * DECIMESH_INDEX_U16 or DECIMESH_INDEX_U32.
+     */
+    decimesh_index_type index_type;
+    /**
+     * x, y and z of each vertex: finite.
+     */
+    float *positions;
+    /**
+     * 0, or at least 12.
+     */
+    size_t positions_stride;
+    /**
+     * Vertices: at least 1, fewer than 2^32.
+     */
+    size_t vertex_count;
+    /**
+     * Three indices a triangle, counter-clockwise from outside: each below vertex_count.
+     */
+    void *indices;
+    /**
+     * Indices: at least 3, a multiple of 3, fewer than 3 * 2^30.
+     */
+    size_t index_count;
+    /**
+     * Unit normals, x, y and z: finite; or NULL.
+     */
+    float *normals;
+    /**
+     * 0, or at least 12.
+     */
+    size_t normals_stride;
+    /**
+     * Texture coordinates, u and v: finite; or NULL.
+     */
+    float *uvs;
+    /**
+     * 0, or at least 8.
+     */
+    size_t uvs_stride;
+    /**
+     * Colours: red, green, blue and alpha, 0 to 255; or NULL.
+     */
+    uint8_t *colors;
+    /**
+     * 0, or at least 4.
+     */
+    size_t colors_stride;
+} decimesh_mutable_buffers;
+
+/**
+ * How numbers are written to a file, where its format leaves the choice.
+ */
+typedef int32_t decimesh_encoding;
+
+/**
+ * What a mesh is made of and what is wrong with it. A face is a triangle with three different vertices.
+ */
+typedef struct decimesh_statistics {
+    /**
+     * sizeof(decimesh_statistics), as decimesh_statistics_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * 1 if every edge has at least two faces.
+     */
+    int32_t is_closed;
+    /**
+     * 1 if there is no non-manifold edge or vertex and no inconsistent edge.
+     */
+    int32_t is_oriented_manifold;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved;
+    /**
+     * Vertices, used or not.
+     */
+    uint64_t vertices;
+    /**
+     * Triangles, proper or not.
+     */
+    uint64_t triangles;
+    /**
+     * Vertices that no triangle uses.
+     */
+    uint64_t unreferenced_vertices;
+    /**
+     * Vertices at the position of an earlier one.
+     */
+    uint64_t duplicate_positions;
+    /**
+     * Triangles that name a vertex twice.
+     */
+    uint64_t degenerate_triangles;
+    /**
+     * Faces without area.
+     */
+    uint64_t zero_area_triangles;
+    /**
+     * Faces on the same three vertices as an earlier one.
+     */
+    uint64_t duplicate_triangles;
+    /**
+     * Edges, however many faces they have.
+     */
+    uint64_t edges;
+    /**
+     * Edges with one face.
+     */
+    uint64_t border_edges;
+    /**
+     * Closed chains of border edges: the holes of a surface.
+     */
+    uint64_t boundary_loops;
+    /**
+     * Edges with more than two faces.
+     */
+    uint64_t non_manifold_edges;
+    /**
+     * Edges with two faces that run the same way along it.
+     */
+    uint64_t inconsistent_edges;
+    /**
+     * Vertices at which several fans of faces touch.
+     */
+    uint64_t non_manifold_vertices;
+    /**
+     * Pieces of the surface.
+     */
+    uint64_t components;
+    /**
+     * Vertices that a face uses, minus edges, plus faces: 2 for a sphere, 0 for a torus.
+     */
+    int64_t euler_characteristic;
+    /**
+     * Least coordinates over the vertices that a triangle uses; 0 without triangles.
+     */
+    float bounds_min[3];
+    /**
+     * Greatest coordinates over the vertices that a triangle uses; 0 without triangles.
+     */
+    float bounds_max[3];
+    /**
+     * Length of the diagonal of the bounds, in units of the positions.
+     */
+    double diagonal;
+    /**
+     * Sum of the areas of the triangles, in squared units of the positions.
+     */
+    double surface_area;
+} decimesh_statistics;
+
+/**
+ * What a simplification shall arrive at.
+ */
+typedef int32_t decimesh_target;
+
+/**
+ * Which collapses a pass takes.
+ */
+typedef int32_t decimesh_selection;
+
+/**
+ * What may happen to holes, handles and components.
+ */
+typedef int32_t decimesh_topology;
+
+/**
+ * Where the vertex of a collapsed edge goes.
+ */
+typedef int32_t decimesh_placement;
+
+/**
+ * Is told how far a call has come: a fraction from 0 to 1 that never falls. What it returns ends the
+ * call, unless it is 0: the call then fails with DECIMESH_ERROR_CANCELLED, and nothing of the
+ * caller's has changed.
+ *
+ * It is called on the thread that made the call, from a few times to some thousands, and may itself call
+ * decimesh. It must not throw or jump out of the call: decimesh.hpp shows how to carry an
+ * exception through.
+ */
+typedef int32_t (*decimesh_progress)(void *user,
+                                     float fraction);
+
+/**
+ * How to simplify. decimesh_simplify_options_init() sets the defaults.
+ */
+typedef struct decimesh_simplify_options {
+    /**
+     * sizeof(decimesh_simplify_options), as decimesh_simplify_options_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * What to arrive at: a DECIMESH_TARGET_ value; by default _RATIO.
+     */
+    decimesh_target target;
+    /**
+     * How many or how much of it, as target says: a whole number, a fraction or a distance; by default 0.5.
+     */
+    double target_value;
+    /**
+     * Which collapses a pass takes: a DECIMESH_SELECTION_ value; by default _SAMPLED_THRESHOLD.
+     */
+    decimesh_selection selection;
+    /**
+     * Records of the heap of DECIMESH_SELECTION_REPLACEMENT, at least 1; by default 15, as in the paper.
+     */
+    uint32_t heap_records;
+    /**
+     * What may happen to the topology: a DECIMESH_TOPOLOGY_ value; by default _RELAX_IF_STUCK.
+     */
+    decimesh_topology topology;
+    /**
+     * Where vertices go: a DECIMESH_PLACEMENT_ value; by default _OPTIMAL.
+     */
+    decimesh_placement placement;
+    /**
+     * 1: vertices of the border stay, bit for bit; by default 0.
+     */
+    int32_t lock_boundary;
+    /**
+     * 1: vertices that share a place with others, as along the seams of textures, stay, bit for bit, so
+     * that no crack opens; 0: the sides of a seam may part. By default 1. It concerns meshes with
+     * attributes, and the calls on the caller's own buffers.
+     */
+    int32_t keep_seams;
+    /**
+     * Threads to use, 0: all that the machine has. The result is the same, byte for byte; by default 0.
+     */
+    uint32_t threads;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Indices of vertices that stay, bit for bit; NULL where there are none.
+     */
+    const uint32_t *locked_vertices;
+    /**
+     * How many locked_vertices there are.
+     */
+    size_t locked_count;
+    /**
+     * NULL, or room for one index a vertex of the input. It receives the vertex of the result that each
+     * went into, UINT32_MAX where it vanished.
+     */
+    uint32_t *origins;
+    /**
+     * Is told of progress, and can cancel; NULL for none.
+     */
+    decimesh_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *progress_user;
+} decimesh_simplify_options;
+
+/**
+ * Why a simplification ended.
+ */
+typedef int32_t decimesh_stopped_by;
+
+/**
+ * How a simplification came about. decimesh_simplify_report_init() sets it up.
+ */
+typedef struct decimesh_simplify_report {
+    /**
+     * sizeof(decimesh_simplify_report), as decimesh_simplify_report_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Why it ended: a DECIMESH_STOPPED_BY_ value.
+     */
+    decimesh_stopped_by stopped_by;
+    /**
+     * Triangles of the result.
+     */
+    uint64_t triangles;
+    /**
+     * Vertices of the result.
+     */
+    uint64_t vertices;
+    /**
+     * Vertices of the input that were locked: by index, as borders, or as seams.
+     */
+    uint64_t locked_vertices;
+    /**
+     * Estimated largest distance from the input, in units of the positions.
+     */
+    float error;
+    /**
+     * 1 if holes, handles or components had to be given up to meet the target.
+     */
+    int32_t topology_changed;
+    /**
+     * Passes over the mesh: the levels of approximation of the paper.
+     */
+    uint32_t passes;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved;
+} decimesh_simplify_report;
+
+/**
+ * How to measure. decimesh_deviation_options_init() sets the defaults.
+ */
+typedef struct decimesh_deviation_options {
+    /**
+     * sizeof(decimesh_deviation_options), as decimesh_deviation_options_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Threads to use, 0: all that the machine has. The result is the same, bit for bit; by default 0.
+     */
+    uint32_t threads;
+    /**
+     * Points spread evenly over the area of each surface; by default 500000. The vertices are measured
+     * besides, for the maximum.
+     */
+    uint64_t samples;
+    /**
+     * Chooses the points; by default 0.
+     */
+    uint64_t seed;
+    /**
+     * Is told of progress, and can cancel; NULL for none.
+     */
+    decimesh_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *progress_user;
+} decimesh_deviation_options;
+
+/**
+ * The distance between two surfaces, in units of the positions; forward is from the first mesh to the
+ * second.
+ */
+typedef struct decimesh_deviation_result {
+    /**
+     * sizeof(decimesh_deviation_result), as decimesh_deviation_result_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved;
+    /**
+     * Root of the mean squared distance: the larger of the two directions.
+     */
+    double rms;
+    /**
+     * Mean distance: the larger of the two directions.
+     */
+    double mean;
+    /**
+     * Largest distance found: the larger of the two directions.
+     */
+    double max;
+    /**
+     * Root of the mean squared distance from the first mesh to the second.
+     */
+    double forward_rms;
+    /**
+     * Mean distance from the first mesh to the second.
+     */
+    double forward_mean;
+    /**
+     * Largest distance found from the first mesh to the second.
+     */
+    double forward_max;
+    /**
+     * Root of the mean squared distance from the second mesh to the first.
+     */
+    double backward_rms;
+    /**
+     * Mean distance from the second mesh to the first.
+     */
+    double backward_mean;
+    /**
+     * Largest distance found from the second mesh to the first.
+     */
+    double backward_max;
+    /**
+     * Diagonal of the box around the triangles of the first mesh.
+     */
+    double diagonal;
+    /**
+     * RMS angle between the normals of the surfaces, in degrees: the larger of the two directions.
+     */
+    double normal_rms_degrees;
+} decimesh_deviation_result;
+
+/**
+ * The call did what it says.
+ */
+#define DECIMESH_OK 0
+
+/**
+ * A pointer that must not be NULL is NULL.
+ */
+#define DECIMESH_ERROR_NULL 1
+
+/**
+ * A struct_size is 0 (the init function was not called), too small, no multiple of 8, or absurdly large.
+ */
+#define DECIMESH_ERROR_STRUCT_SIZE 2
+
+/**
+ * A struct of a newer decimesh sets something that this one does not know.
+ */
+#define DECIMESH_ERROR_UNKNOWN_OPTION 3
+
+/**
+ * An enumerated option has a value that does not exist.
+ */
+#define DECIMESH_ERROR_ENUM 4
+
+/**
+ * An option is out of its range, such as a ratio of 1.5 or a locked vertex that does not exist.
+ */
+#define DECIMESH_ERROR_OPTION 5
+
+/**
+ * There are no vertices, no indices, or no triangles where there must be some.
+ */
+#define DECIMESH_ERROR_EMPTY 6
+
+/**
+ * A stride is shorter than an element.
+ */
+#define DECIMESH_ERROR_STRIDE 7
+
+/**
+ * Count times stride exceeds the address space, or a count exceeds what a mesh can hold.
+ */
+#define DECIMESH_ERROR_OVERFLOW 8
+
+/**
+ * The number of indices is no multiple of three.
+ */
+#define DECIMESH_ERROR_INDEX_COUNT 9
+
+/**
+ * An index names a vertex that does not exist.
+ */
+#define DECIMESH_ERROR_INDEX_RANGE 10
+
+/**
+ * A coordinate or an attribute is infinite or not a number.
+ */
+#define DECIMESH_ERROR_NOT_FINITE 11
+
+/**
+ * A level that does not exist was asked for.
+ */
+#define DECIMESH_ERROR_OUT_OF_RANGE 12
+
+/**
+ * The system refused to read or to write a file.
+ */
+#define DECIMESH_ERROR_IO 13
+
+/**
+ * A file breaks the rules of its format, uses a part of it that is not read, or has an extension that names none.
+ */
+#define DECIMESH_ERROR_FORMAT 14
+
+/**
+ * The progress callback ended the call.
+ */
+#define DECIMESH_ERROR_CANCELLED 15
+
+/**
+ * The threads asked for could not be started.
+ */
+#define DECIMESH_ERROR_THREADS 16
+
+/**
+ * A path is not UTF-8.
+ */
+#define DECIMESH_ERROR_UTF8 17
+
+/**
+ * The result does not fit where it is to go, such as a mesh of more than 4 GiB into a glTF file.
+ */
+#define DECIMESH_ERROR_TOO_LARGE 18
+
+/**
+ * There is not enough memory for a copy of the buffers.
+ */
+#define DECIMESH_ERROR_OUT_OF_MEMORY 19
+
+/**
+ * A bug in decimesh. The handles that the call was given must only be destroyed after that.
+ */
+#define DECIMESH_ERROR_PANIC 100
+
+/**
+ * 16-bit unsigned integers.
+ */
+#define DECIMESH_INDEX_U16 1
+
+/**
+ * 32-bit unsigned integers.
+ */
+#define DECIMESH_INDEX_U32 2
+
+/**
+ * Binary, little endian.
+ */
+#define DECIMESH_ENCODING_BINARY 0
+
+/**
+ * Binary, big endian: PLY alone; elsewhere the same as DECIMESH_ENCODING_BINARY.
+ */
+#define DECIMESH_ENCODING_BINARY_BIG_ENDIAN 1
+
+/**
+ * Text, with as few digits as bring every number back bit for bit: PLY and STL.
+ */
+#define DECIMESH_ENCODING_ASCII 2
+
+/**
+ * At most target_value triangles: that many, or one fewer.
+ */
+#define DECIMESH_TARGET_TRIANGLES 0
+
+/**
+ * At most target_value vertices that a triangle uses.
+ */
+#define DECIMESH_TARGET_VERTICES 1
+
+/**
+ * The fraction target_value, 0 to 1, of the input's triangles, rounded down.
+ */
+#define DECIMESH_TARGET_RATIO 2
+
+/**
+ * As few triangles as an estimated distance of target_value, in units of the positions, allows.
+ */
+#define DECIMESH_TARGET_MAX_ERROR 3
+
+/**
+ * All that cost less than a sampled quantile: the best and fastest.
+ */
+#define DECIMESH_SELECTION_SAMPLED_THRESHOLD 0
+
+/**
+ * The paper's: a replacement-selection heap of heap_records records.
+ */
+#define DECIMESH_SELECTION_REPLACEMENT 1
+
+/**
+ * They are kept as long as the target can be reached so, and given up where it cannot.
+ */
+#define DECIMESH_TOPOLOGY_RELAX_IF_STUCK 0
+
+/**
+ * They are kept, even if the target is missed.
+ */
+#define DECIMESH_TOPOLOGY_KEEP 1
+
+/**
+ * Where the error is least: a new vertex.
+ */
+#define DECIMESH_PLACEMENT_OPTIMAL 0
+
+/**
+ * To one of the edge's ends: every vertex of the result is a vertex of the input, bit for bit.
+ */
+#define DECIMESH_PLACEMENT_EXISTING 1
+
+/**
+ * The target is met.
+ */
+#define DECIMESH_STOPPED_BY_TARGET 0
+
+/**
+ * Every further collapse would exceed the error asked for.
+ */
+#define DECIMESH_STOPPED_BY_ERROR 1
+
+/**
+ * Every further collapse would change the topology, fold a face over, or move a locked vertex.
+ */
+#define DECIMESH_STOPPED_BY_STUCK 2
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library, major << 16 | minor << 8 | patch: a program that was compiled with one
+ * header and runs with another library can tell by comparing it with the macros.
+ *
+ * Any thread; never fails.
+ */
+uint32_t decimesh_version(void);
+
+/**
+ * The version of the library as a text, such as "0.1.0". Static. Any thread; never fails.
+ */
+const char *decimesh_version_string(void);
+
+/**
+ * What was wrong in this thread's last call that failed, in English, without a line end; "" before the first.
+ *
+ * The text is UTF-8 and belongs to decimesh: it is valid until this thread's next call that fails,
+ * or its end. Each thread has its own. Constant time; never fails.
+ */
+const char *decimesh_last_error_message(void);
+
+/**
+ * The name of a status, such as "DECIMESH_ERROR_NULL"; "unknown status" for a value that is none.
+ *
+ * The text is static. Any thread; never fails.
+ */
+const char *decimesh_status_name(decimesh_status status);
+
+/**
+ * Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+ */
+void decimesh_buffers_init(struct decimesh_buffers *buffers);
+
+/**
+ * Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+ */
+void decimesh_mutable_buffers_init(struct decimesh_mutable_buffers *buffers);
+
+/**
+ * Makes a mesh of a copy of the caller's buffers, which are not needed any more afterwards.
+ *
+ * Nothing is welded, dropped or moved: duplicate and degenerate triangles, vertices that no triangle
+ * uses, non-manifold edges and any number of components are welcome.
+ *
+ * *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy().
+ * Fails with _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _EMPTY, _STRIDE, _OVERFLOW, _INDEX_COUNT,
+ * _INDEX_RANGE, _NOT_FINITE or _OUT_OF_MEMORY. Linear in the mesh; any thread.
+ */
+decimesh_status decimesh_mesh_from_buffers(const struct decimesh_buffers *buffers,
+                                           struct decimesh_mesh **mesh);
+
+/**
+ * Reads a mesh from a file: PLY, OBJ, STL, OFF, glTF or GLB, as the extension of the path says.
+ *
+ * Polygons become fans of triangles; the corners of an STL file that lie at one place become one
+ * vertex; vertices of an OBJ file are as many as there are pairs of position, normal and texture
+ * coordinate; a glTF scene becomes one mesh, its nodes' transforms applied.
+ *
+ * path is UTF-8. *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(); one without
+ * triangles is possible. Fails with _NULL, _UTF8, _IO, _FORMAT (the text says at which line or byte),
+ * _INDEX_RANGE, _NOT_FINITE or _OVERFLOW. Time and memory are in proportion to the file; any thread.
+ */
+decimesh_status decimesh_mesh_read(const char *path,
+                                   struct decimesh_mesh **mesh);
+
+/**
+ * Writes a mesh to a file: PLY, OBJ, STL, OFF, glTF or GLB, as the extension of the path says.
+ *
+ * The file appears whole or not at all: it is written under another name beside its place and renamed
+ * at the end. path is UTF-8; encoding is a DECIMESH_ENCODING_ value.
+ * Fails with _NULL, _UTF8, _ENUM, _IO, _FORMAT (no such extension) or _TOO_LARGE (glTF ends at 4 GiB).
+ * Linear in the mesh; any thread.
+ */
+decimesh_status decimesh_mesh_write(const struct decimesh_mesh *mesh,
+                                    const char *path,
+                                    decimesh_encoding encoding);
+
+/**
+ * Makes one vertex of all that lie at one place, or within a tolerance of an earlier one: the seams of
+ * a game asset become one surface, whose attributes are those of the first vertex of each place.
+ *
+ * tolerance is a distance in the units of the positions: finite, not negative; 0 takes equal positions
+ * alone. Triangles left with fewer than three vertices are dropped.
+ *
+ * *welded receives a new mesh, which the caller ends with decimesh_mesh_destroy(). Fails with _NULL or
+ * _OPTION. n log n time; any thread.
+ */
+decimesh_status decimesh_mesh_weld(const struct decimesh_mesh *mesh,
+                                   float tolerance,
+                                   struct decimesh_mesh **welded);
+
+/**
+ * Ends a mesh: its memory is given back, and pointers into it are void. NULL is left alone, as is a mesh
+ * that belongs to a decimesh_levels.
+ *
+ * No other thread may use the mesh any more.
+ */
+void decimesh_mesh_destroy(struct decimesh_mesh *mesh);
+
+/**
+ * How many vertices a mesh has; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_mesh_vertex_count(const struct decimesh_mesh *mesh);
+
+/**
+ * How many triangles a mesh has; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_mesh_triangle_count(const struct decimesh_mesh *mesh);
+
+/**
+ * The positions: x, y and z of each vertex, without a gap; NULL for NULL.
+ *
+ * They belong to the mesh and are valid until it ends. Without vertices there is nothing to read.
+ * Constant time; any thread; never fails.
+ */
+const float *decimesh_mesh_positions(const struct decimesh_mesh *mesh);
+
+/**
+ * The indices: three a triangle, counter-clockwise from outside; NULL for NULL.
+ *
+ * They belong to the mesh and are valid until it ends. Without triangles there is nothing to read.
+ * Constant time; any thread; never fails.
+ */
+const uint32_t *decimesh_mesh_indices(const struct decimesh_mesh *mesh);
+
+/**
+ * The normals: x, y and z of each vertex, without a gap; NULL where there are none, and for NULL.
+ *
+ * They belong to the mesh and are valid until it ends. Constant time; any thread; never fails.
+ */
+const float *decimesh_mesh_normals(const struct decimesh_mesh *mesh);
+
+/**
+ * The texture coordinates: u and v of each vertex, without a gap; NULL where there are none, and for NULL.
+ *
+ * They belong to the mesh and are valid until it ends. Constant time; any thread; never fails.
+ */
+const float *decimesh_mesh_uvs(const struct decimesh_mesh *mesh);
+
+/**
+ * The colours: red, green, blue and alpha of each vertex, without a gap; NULL where there are none, and for
+ * NULL.
+ *
+ * They belong to the mesh and are valid until it ends. Constant time; any thread; never fails.
+ */
+const uint8_t *decimesh_mesh_colors(const struct decimesh_mesh *mesh);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ */
+void decimesh_statistics_init(struct decimesh_statistics *statistics);
+
+/**
+ * Counts what a mesh is made of, into *statistics, which decimesh_statistics_init has set up.
+ *
+ * Fails with _NULL or _STRUCT_SIZE. n log n time, about 20 bytes of memory a triangle and 20 a vertex;
+ * any thread, and all cores.
+ */
+decimesh_status decimesh_mesh_statistics(const struct decimesh_mesh *mesh,
+                                         struct decimesh_statistics *statistics);
+
+/**
+ * Sets the defaults: half of the triangles, new vertices, all threads. NULL is left alone.
+ */
+void decimesh_simplify_options_init(struct decimesh_simplify_options *options);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ */
+void decimesh_simplify_report_init(struct decimesh_simplify_report *report);
+
+/**
+ * Simplifies a mesh by quadric edge collapses, in linear time (HQMS: Chen, Fahn, Tsai, Chen and Lin, "A
+ * Linear Time Algorithm for High Quality Mesh Simplification").
+ *
+ * A target that cannot be met is no failure: the result is then as small as the options allow, and the
+ * report says why it stopped. Attributes are interpolated, and do not count as error. The input is
+ * not changed. The result depends on the mesh and the options alone: not on the threads, nor on the
+ * language of the caller.
+ *
+ * *simplified receives a new mesh, which the caller ends with decimesh_mesh_destroy(). *report, if it is
+ * not NULL, has been set up by decimesh_simplify_report_init. Fails with _NULL, _STRUCT_SIZE,
+ * _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+ *
+ * Linear time; about 36 bytes of memory a triangle, and the result. Any thread; progress is told on the
+ * calling one.
+ */
+decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
+                                  const struct decimesh_simplify_options *options,
+                                  struct decimesh_mesh **simplified,
+                                  struct decimesh_simplify_report *report);
+
+/**
+ * Simplifies to indices alone: all levels of detail share the caller's vertices, which are not changed.
+ *
+ * destination has room for buffers->index_count indices of buffers->index_type, and may be
+ * buffers->indices itself. It receives *index_count indices. The placement is
+ * DECIMESH_PLACEMENT_EXISTING, whatever the options say. Attributes may be left NULL: with
+ * options->keep_seams, vertices that share a place are found by their positions.
+ * options->origins, if asked for, names the caller's vertices.
+ *
+ * Where the topology had to be given up (report->topology_changed), a vertex at which the surface was
+ * parted serves both parts.
+ *
+ * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
+ * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
+ *
+ * Linear time; about 55 bytes of memory a triangle. Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_simplify_indices(void *destination,
+                                          const struct decimesh_buffers *buffers,
+                                          const struct decimesh_simplify_options *options,
+                                          size_t *index_count,
+                                          struct decimesh_simplify_report *report);
+
+/**
+ * Simplifies in the caller's buffers: indices, positions and attributes are overwritten.
+ *
+ * A vertex of the result takes the place of one that went into it, so that further streams of the
+ * vertex buffer stay where they are and nothing moves; vertices that no index names any more keep what
+ * they had. buffers->indices receives *index_count indices; with DECIMESH_PLACEMENT_EXISTING that is
+ * all that changes. options->origins, if asked for, names the caller's vertices. With
+ * options->keep_seams, vertices that share a place are found by their positions.
+ *
+ * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
+ * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
+ *
+ * Linear time; about 55 bytes of memory a triangle. No other thread may use the buffers meanwhile;
+ * progress is told on the calling thread.
+ */
+decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers *buffers,
+                                           const struct decimesh_simplify_options *options,
+                                           size_t *index_count,
+                                           struct decimesh_simplify_report *report);
+
+/**
+ * Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
+ *
+ * target_values has count values, at least 1, from fine to coarse; each is what options->target_value
+ * is for one simplification. options->origins must be NULL. A level that cannot be met is the same mesh
+ * as the one before, and its report says why.
+ *
+ * *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
+ * _EMPTY, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+ *
+ * Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+ * calling one.
+ */
+decimesh_status decimesh_levels_build(const struct decimesh_mesh *mesh,
+                                      const struct decimesh_simplify_options *options,
+                                      const double *target_values,
+                                      size_t count,
+                                      struct decimesh_levels **levels);
+
+/**
+ * Ends a chain of levels and all of its meshes. NULL is left alone.
+ *
+ * No other thread may use the chain or a mesh of it any more.
+ */
+void decimesh_levels_destroy(struct decimesh_levels *levels);
+
+/**
+ * How many levels there are; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_levels_count(const struct decimesh_levels *levels);
+
+/**
+ * The mesh of a level, 0 being the finest. It belongs to the chain and ends with it:
+ * decimesh_mesh_destroy() leaves it alone.
+ *
+ * Fails with _NULL or _OUT_OF_RANGE. Constant time; any thread.
+ */
+decimesh_status decimesh_levels_mesh(const struct decimesh_levels *levels,
+                                     size_t level,
+                                     const struct decimesh_mesh **mesh);
+
+/**
+ * How a level came about, 0 being the finest: into *report, which decimesh_simplify_report_init has set up.
+ * Errors are those of the whole chain up to the level.
+ *
+ * Fails with _NULL, _OUT_OF_RANGE or _STRUCT_SIZE. Constant time; any thread.
+ */
+decimesh_status decimesh_levels_report(const struct decimesh_levels *levels,
+                                       size_t level,
+                                       struct decimesh_simplify_report *report);
+
+/**
+ * The coarsest level whose error is at most max_error, in units of the positions: into *level, which
+ * becomes the number of levels where none is so good and the original is to be drawn.
+ *
+ * Seen by a perspective camera from a distance d, with a vertical field of view of f radians on a screen
+ * h pixels high, an error of p pixels on the screen is one of p * d * 2 * tan(f / 2) / h.
+ *
+ * Fails with _NULL, or _NOT_FINITE if max_error is not a number. Linear in the levels; any thread.
+ */
+decimesh_status decimesh_levels_select(const struct decimesh_levels *levels,
+                                       float max_error,
+                                       size_t *level);
+
+/**
+ * Sets the defaults: 500000 samples a direction, all threads. NULL is left alone.
+ */
+void decimesh_deviation_options_init(struct decimesh_deviation_options *options);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ */
+void decimesh_deviation_result_init(struct decimesh_deviation_result *result);
+
+/**
+ * Measures the distance between the surfaces of two meshes, in both directions, as Metro does: points on
+ * one surface, each to the nearest point of the other, which is found exactly, in double precision.
+ *
+ * options may be NULL: the defaults. *result has been set up by decimesh_deviation_result_init. Fails with
+ * _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _EMPTY (a mesh without triangles), _CANCELLED or _THREADS.
+ *
+ * O((n + samples) log n) time, about 110 bytes of memory a triangle and more while the trees are built.
+ * Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_deviation(const struct decimesh_mesh *a,
+                                   const struct decimesh_mesh *b,
+                                   const struct decimesh_deviation_options *options,
+                                   struct decimesh_deviation_result *result);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* DECIMESH_H */

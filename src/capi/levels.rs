@@ -1,0 +1,157 @@
+//! `decimesh_levels`: a chain of levels of detail.
+
+use super::entry::entry;
+use super::mesh::decimesh_mesh;
+use super::simplify::{ReportPlace, decimesh_simplify_options, decimesh_simplify_report};
+use super::status::{
+    DECIMESH_ERROR_EMPTY, DECIMESH_ERROR_NOT_FINITE, DECIMESH_ERROR_OPTION, DECIMESH_ERROR_OUT_OF_RANGE,
+    Failure, decimesh_status,
+};
+use crate::hqms::{build_levels, coarsest_within};
+use std::slice;
+
+/// Levels of detail of one mesh, from fine to coarse: immutable.
+///
+/// A const decimesh_levels* may be used from many threads at once.
+pub struct decimesh_levels {
+    meshes: Vec<decimesh_mesh>,
+    reports: Vec<decimesh_simplify_report>,
+}
+
+impl decimesh_levels {
+    fn check(&self, level: usize) -> Result<(), Failure> {
+        let count = self.meshes.len();
+        if level < count {
+            return Ok(());
+        }
+        Err(Failure::new(DECIMESH_ERROR_OUT_OF_RANGE, format!("level {level} of {count} does not exist")))
+    }
+}
+
+/// Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
+///
+/// target_values has count values, at least 1, from fine to coarse; each is what options->target_value
+/// is for one simplification. options->origins must be NULL. A level that cannot be met is the same mesh
+/// as the one before, and its report says why.
+///
+/// *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
+/// _EMPTY, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+///
+/// Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+/// calling one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_build(
+    mesh: *const decimesh_mesh,
+    options: *const decimesh_simplify_options,
+    target_values: *const f64,
+    count: usize,
+    levels: *mut *mut decimesh_levels,
+) -> decimesh_status {
+    entry!([mesh, options, target_values, levels] {
+        if count == 0 {
+            return Err(Failure::new(DECIMESH_ERROR_EMPTY, "count is 0: there is no level to make"));
+        }
+        // SAFETY: none is NULL, and the caller vouches for what they point to.
+        unsafe {
+            let (own, options) = decimesh_simplify_options::read(options)?;
+            if options.track_origins {
+                let message = "origins must be NULL: levels have none";
+                return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
+            }
+            let values = slice::from_raw_parts(target_values, count).iter();
+            let targets = values.map(|&value| own.target(value)).collect::<Result<Vec<_>, _>>()?;
+            let results = build_levels(&(*mesh).mesh, &targets, &options, &mut own.monitor())?;
+            let reports = results.iter().map(Into::into).collect();
+            let meshes =
+                results.into_iter().map(|result| decimesh_mesh { mesh: result.mesh, is_borrowed: true });
+            let chain = decimesh_levels { meshes: meshes.collect(), reports };
+            levels.write(Box::into_raw(Box::new(chain)));
+        }
+        Ok(())
+    })
+}
+
+/// Ends a chain of levels and all of its meshes. NULL is left alone.
+///
+/// No other thread may use the chain or a mesh of it any more.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_destroy(levels: *mut decimesh_levels) {
+    if !levels.is_null() {
+        // SAFETY: a handle that came from a box and has not been destroyed.
+        drop(unsafe { Box::from_raw(levels) });
+    }
+}
+
+/// How many levels there are; 0 for NULL. Constant time; any thread; never fails.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_count(levels: *const decimesh_levels) -> usize {
+    // SAFETY: NULL or a living handle.
+    unsafe { levels.as_ref() }.map_or(0, |levels| levels.meshes.len())
+}
+
+/// The mesh of a level, 0 being the finest. It belongs to the chain and ends with it:
+/// decimesh_mesh_destroy() leaves it alone.
+///
+/// Fails with _NULL or _OUT_OF_RANGE. Constant time; any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_mesh(
+    levels: *const decimesh_levels,
+    level: usize,
+    mesh: *mut *const decimesh_mesh,
+) -> decimesh_status {
+    entry!([levels, mesh] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe {
+            (*levels).check(level)?;
+            mesh.write(&raw const (&(*levels).meshes)[level]);
+        }
+        Ok(())
+    })
+}
+
+/// How a level came about, 0 being the finest: into *report, which decimesh_simplify_report_init has set up.
+/// Errors are those of the whole chain up to the level.
+///
+/// Fails with _NULL, _OUT_OF_RANGE or _STRUCT_SIZE. Constant time; any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_report(
+    levels: *const decimesh_levels,
+    level: usize,
+    report: *mut decimesh_simplify_report,
+) -> decimesh_status {
+    entry!([levels, report] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe {
+            (*levels).check(level)?;
+            ReportPlace::new(report)?.write(&(&(*levels).reports)[level]);
+        }
+        Ok(())
+    })
+}
+
+/// The coarsest level whose error is at most max_error, in units of the positions: into *level, which
+/// becomes the number of levels where none is so good and the original is to be drawn.
+///
+/// Seen by a perspective camera from a distance d, with a vertical field of view of f radians on a screen
+/// h pixels high, an error of p pixels on the screen is one of p * d * 2 * tan(f / 2) / h.
+///
+/// Fails with _NULL, or _NOT_FINITE if max_error is not a number. Linear in the levels; any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_select(
+    levels: *const decimesh_levels,
+    max_error: f32,
+    level: *mut usize,
+) -> decimesh_status {
+    entry!([levels, level] {
+        if max_error.is_nan() {
+            return Err(Failure::new(DECIMESH_ERROR_NOT_FINITE, "max_error is not a number"));
+        }
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe {
+            let reports = &(*levels).reports;
+            let chosen = coarsest_within(reports.iter().map(|report| report.error), max_error);
+            level.write(chosen.unwrap_or(reports.len()));
+        }
+        Ok(())
+    })
+}
