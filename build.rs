@@ -1,0 +1,17 @@
+//! Gives the shared library its soname, the name that linked programs ask the loader for. It carries the major version,
+//! so that a library with another ABI never takes the place of the one a program was built for.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let major = env!("CARGO_PKG_VERSION_MAJOR");
+    let system = std::env::var("CARGO_CFG_TARGET_OS").expect("cargo sets it for build scripts");
+    match system.as_str() {
+        "linux" | "freebsd" | "netbsd" | "openbsd" => {
+            println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libdecimesh.so.{major}");
+        }
+        "macos" => {
+            println!("cargo::rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libdecimesh.{major}.dylib")
+        }
+        _ => {}
+    }
+}
