@@ -966,12 +966,12 @@ decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers
 /**
  * Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
  *
- * target_values has count values, at least 1, from fine to coarse; each is what options->target_value
- * is for one simplification. options->origins must be NULL. A level that cannot be met is the same mesh
- * as the one before, and its report says why.
+ * target_values has count values, at least 1, from fine to coarse; each is what options->target_value is
+ * for one simplification, which is not looked at here. options->origins must be NULL. A level that cannot
+ * be met is the same mesh as the one before, and its report says why.
  *
  * *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
- * _EMPTY, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+ * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
  *
  * Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
  * calling one.

@@ -5,8 +5,9 @@ use super::mesh::decimesh_mesh;
 use super::simplify::{ReportPlace, decimesh_simplify_options, decimesh_simplify_report};
 use super::status::{
     DECIMESH_ERROR_EMPTY, DECIMESH_ERROR_NOT_FINITE, DECIMESH_ERROR_OPTION, DECIMESH_ERROR_OUT_OF_RANGE,
-    Failure, decimesh_status,
+    DECIMESH_ERROR_OVERFLOW, Failure, decimesh_status,
 };
+use super::structs;
 use crate::hqms::{build_levels, coarsest_within};
 use std::slice;
 
@@ -30,12 +31,12 @@ impl decimesh_levels {
 
 /// Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
 ///
-/// target_values has count values, at least 1, from fine to coarse; each is what options->target_value
-/// is for one simplification. options->origins must be NULL. A level that cannot be met is the same mesh
-/// as the one before, and its report says why.
+/// target_values has count values, at least 1, from fine to coarse; each is what options->target_value is
+/// for one simplification, which is not looked at here. options->origins must be NULL. A level that cannot
+/// be met is the same mesh as the one before, and its report says why.
 ///
 /// *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
-/// _EMPTY, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+/// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
 ///
 /// Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
 /// calling one.
@@ -51,15 +52,20 @@ pub unsafe extern "C" fn decimesh_levels_build(
         if count == 0 {
             return Err(Failure::new(DECIMESH_ERROR_EMPTY, "count is 0: there is no level to make"));
         }
+        if count > isize::MAX as usize / size_of::<f64>() {
+            let message = format!("count is {count}, more values than the address space has room for");
+            return Err(Failure::new(DECIMESH_ERROR_OVERFLOW, message));
+        }
         // SAFETY: none is NULL, and the caller vouches for what they point to.
         unsafe {
-            let (own, options) = decimesh_simplify_options::read(options)?;
+            let own: decimesh_simplify_options = structs::read(options)?;
+            let values = slice::from_raw_parts(target_values, count).iter();
+            let targets = values.map(|&value| own.target(value)).collect::<Result<Vec<_>, _>>()?;
+            let options = own.with_target(targets[0])?;
             if options.track_origins {
                 let message = "origins must be NULL: levels have none";
                 return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
             }
-            let values = slice::from_raw_parts(target_values, count).iter();
-            let targets = values.map(|&value| own.target(value)).collect::<Result<Vec<_>, _>>()?;
             let results = build_levels(&(*mesh).mesh, &targets, &options, &mut own.monitor())?;
             let reports = results.iter().map(Into::into).collect();
             let meshes =

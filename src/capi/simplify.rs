@@ -206,46 +206,57 @@ impl decimesh_simplify_options {
     /// good.
     pub(super) unsafe fn read(pointer: *const Self) -> Result<(Self, Options), Failure> {
         // SAFETY: as the caller of this function promises.
-        let own = unsafe { structs::read(pointer)? };
-        if own.reserved != 0 {
-            let message = format!("reserved is {}, not 0: it is an option of a newer decimesh", own.reserved);
+        unsafe {
+            let own = structs::read(pointer)?;
+            let options = own.with_target(own.target(own.target_value)?)?;
+            Ok((own, options))
+        }
+    }
+
+    /// The options with this target in place of their own.
+    ///
+    /// # Safety
+    /// The pointers are good.
+    pub(super) unsafe fn with_target(&self, target: Target) -> Result<Options, Failure> {
+        if self.reserved != 0 {
+            let message =
+                format!("reserved is {}, not 0: it is an option of a newer decimesh", self.reserved);
             return Err(Failure::new(DECIMESH_ERROR_UNKNOWN_OPTION, message));
         }
-        let selection = match own.selection {
+        let selection = match self.selection {
             DECIMESH_SELECTION_SAMPLED_THRESHOLD => Selection::SampledThreshold,
             DECIMESH_SELECTION_REPLACEMENT => {
-                Selection::ReplacementSelection { records: own.heap_records as usize }
+                Selection::ReplacementSelection { records: self.heap_records as usize }
             }
             other => return Err(foreign("selection", other)),
         };
-        let topology = match own.topology {
+        let topology = match self.topology {
             DECIMESH_TOPOLOGY_RELAX_IF_STUCK => Topology::RelaxIfStuck,
             DECIMESH_TOPOLOGY_KEEP => Topology::Keep,
             other => return Err(foreign("topology", other)),
         };
-        let placement = match own.placement {
+        let placement = match self.placement {
             DECIMESH_PLACEMENT_OPTIMAL => Placement::Optimal,
             DECIMESH_PLACEMENT_EXISTING => Placement::Existing,
             other => return Err(foreign("placement", other)),
         };
-        let locked = match (own.locked_vertices.is_null(), own.locked_count) {
+        let locked = match (self.locked_vertices.is_null(), self.locked_count) {
             (_, 0) => Vec::new(),
             (true, _) => return Err(null("locked_vertices")),
             // SAFETY: as the caller of this function promises.
-            (false, count) => unsafe { read_locked(own.locked_vertices, count)? },
+            (false, count) => unsafe { read_locked(self.locked_vertices, count)? },
         };
-        let options = Options {
+        Ok(Options {
             selection,
             topology,
             placement,
-            lock_boundary: switch("lock_boundary", own.lock_boundary)?,
-            keep_seams: switch("keep_seams", own.keep_seams)?,
+            lock_boundary: switch("lock_boundary", self.lock_boundary)?,
+            keep_seams: switch("keep_seams", self.keep_seams)?,
             locked,
-            threads: own.threads as usize,
-            track_origins: !own.origins.is_null(),
-            ..Options::new(own.target(own.target_value)?)
-        };
-        Ok((own, options))
+            threads: self.threads as usize,
+            track_origins: !self.origins.is_null(),
+            ..Options::new(target)
+        })
     }
 
     /// The target of this kind with another value.
