@@ -1,0 +1,2 @@
+// What holds for C holds for C++.
+#include "header.c"
