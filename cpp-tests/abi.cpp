@@ -70,7 +70,7 @@ TEST_CASE("abi: header and library are of one version") {
                                                         std::to_string(DECIMESH_VERSION_PATCH));
 }
 
-TEST_CASE("abi: statuses have names, and numbers that are none are called so") {
+TEST_CASE("abi: statuses have names and other numbers have none") {
     CHECK(std::string(decimesh_status_name(DECIMESH_OK)) == "DECIMESH_OK");
     CHECK(std::string(decimesh_status_name(DECIMESH_ERROR_NOT_FINITE)) == "DECIMESH_ERROR_NOT_FINITE");
     CHECK(std::string(decimesh_status_name(DECIMESH_ERROR_PANIC)) == "DECIMESH_ERROR_PANIC");

@@ -65,7 +65,7 @@ const shapes::Dressed &stone() {
 
 }   // namespace
 
-TEST_CASE("callbacks: cancelling at every step, by C") {
+TEST_CASE("callbacks: cancelling at every step from C") {
     for (const calls::Named &named : calls::on_options) {
         CAPTURE(named.name);
         int steps = 0;
@@ -91,7 +91,7 @@ TEST_CASE("callbacks: cancelling at every step, by C") {
     }
 }
 
-TEST_CASE("callbacks: cancelling a measurement at every step, by C") {
+TEST_CASE("callbacks: cancelling a measurement at every step from C") {
     const decimesh::Mesh mesh = stone().mesh();
     decimesh_deviation_options options;
     decimesh_deviation_options_init(&options);
@@ -112,7 +112,7 @@ TEST_CASE("callbacks: cancelling a measurement at every step, by C") {
     CHECK(steps > 2);
 }
 
-TEST_CASE("callbacks: exceptions arrive as they were thrown, from every step") {
+TEST_CASE("callbacks: exceptions arrive from every step as they were thrown") {
     const decimesh::Mesh mesh = stone().mesh();
     const Bytes before = bytes_of(mesh);
     decimesh::Options options;

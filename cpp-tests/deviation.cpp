@@ -44,7 +44,7 @@ TEST_CASE("deviation: planes are as far apart as they are") {
     }
 }
 
-TEST_CASE("deviation: both directions are told apart, and exchanging meshes exchanges them") {
+TEST_CASE("deviation: exchanging the meshes exchanges the directions") {
     const Mesh whole = shapes::plane(6).mesh();
     shapes::Shape shape = shapes::plane(6);
     shape.indices.resize(shape.indices.size() / 2);
@@ -58,7 +58,7 @@ TEST_CASE("deviation: both directions are told apart, and exchanging meshes exch
     CHECK(there.backward.mean == back.forward.mean);
 }
 
-TEST_CASE("deviation: seeds choose the points, threads change nothing") {
+TEST_CASE("deviation: seeds choose the points and threads change nothing") {
     const Mesh fine = shapes::stone(16, 12).mesh();
     const Mesh coarse = decimesh::simplify(fine, {decimesh::Target::ratio(0.2)}).mesh;
     DeviationOptions options = few_samples();
@@ -74,7 +74,7 @@ TEST_CASE("deviation: seeds choose the points, threads change nothing") {
     CHECK(other.rms == doctest::Approx(one.rms).epsilon(0.2));
 }
 
-TEST_CASE("deviation: progress rises, and a missing mesh is an error") {
+TEST_CASE("deviation: progress rises and a missing mesh is an error") {
     const Mesh mesh = shapes::plane(4).mesh();
     DeviationOptions options = few_samples();
     float last = 0;

@@ -9,7 +9,7 @@ using calls::nobody;
 
 TEST_SUITE_BEGIN("quick");
 
-TEST_CASE("errors: NULL buffers, options and outputs are named") {
+TEST_CASE("errors: NULL buffers and options are named") {
     shapes::Dressed dressed(shapes::plane(4));
     const decimesh_buffers buffers = dressed.raw();
     const decimesh_simplify_options options = calls::default_options();
@@ -47,7 +47,7 @@ TEST_CASE("errors: NULL buffers, options and outputs are named") {
     CHECK(dressed.bytes() == before);
 }
 
-TEST_CASE("errors: NULL meshes, paths and results are named") {
+TEST_CASE("errors: NULL meshes and paths are named") {
     const decimesh::Mesh owner = shapes::plane(4).mesh();
     const decimesh_mesh *const mesh = owner.get();
     const decimesh_simplify_options options = calls::default_options();

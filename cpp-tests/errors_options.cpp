@@ -168,7 +168,7 @@ TEST_CASE("errors: options out of range are refused by every call that takes the
     }
 }
 
-TEST_CASE("errors: origins are written on success alone, and levels have none") {
+TEST_CASE("errors: origins are written on success alone") {
     shapes::Dressed dressed(shapes::plane(4));
     const decimesh_buffers buffers = dressed.raw();
     const std::vector<std::uint32_t> unset(dressed.shape.positions.size(), 0xABABABAB);
@@ -213,7 +213,7 @@ TEST_CASE("errors: other options that are out of range") {
     CHECK(levels == calls::nobody<decimesh_levels>());
 }
 
-TEST_CASE("errors: levels do not look at the target value of the options, as each has its own") {
+TEST_CASE("errors: levels have target values of their own") {
     const decimesh::Mesh owner = shapes::plane(4).mesh();
     decimesh_simplify_options options = calls::default_options();
     options.target = DECIMESH_TARGET_TRIANGLES;
@@ -224,7 +224,7 @@ TEST_CASE("errors: levels do not look at the target value of the options, as eac
     decimesh_levels_destroy(levels);
 }
 
-TEST_CASE("errors: structs that are read may be older or newer, as long as nothing in them is unknown") {
+TEST_CASE("errors: structs that are read may be newer if nothing in them is unknown") {
     shapes::Dressed dressed(shapes::plane(4));
     const decimesh_buffers buffers = dressed.raw();
     const decimesh_mutable_buffers writable = dressed.raw_mutable();

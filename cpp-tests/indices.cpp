@@ -157,7 +157,7 @@ TEST_CASE("indices: too little room is refused before anything is written") {
     CHECK(destination == std::vector<std::uint32_t>(95, 7));
 }
 
-TEST_CASE_TEMPLATE("in place: vertices keep their places, the rest its values", Index, std::uint16_t, std::uint32_t) {
+TEST_CASE_TEMPLATE("in place: vertices keep their places and the rest its values", Index, std::uint16_t, std::uint32_t) {
     const shapes::Dressed dressed(shapes::stone(24, 16));
     std::vector<Vertex> vertices = vertex_buffer(dressed);
     const std::vector<Vertex> before = vertices;

@@ -26,7 +26,7 @@ decimesh::Status status_of(const Levels &levels, std::size_t level) {
 
 }   // namespace
 
-TEST_CASE("levels: exact counts, ever coarser, ever farther") {
+TEST_CASE("levels: exact and ever coarser") {
     const shapes::Dressed dressed(shapes::stone(32, 24));
     const Mesh mesh = dressed.mesh();
     const std::vector<double> ratios = {1.0, 0.5, 0.25, 0.25, 0.05};
@@ -72,7 +72,7 @@ TEST_CASE("levels: the coarsest that is good enough is selected") {
     CHECK_FALSE(levels.select(0).has_value());
 }
 
-TEST_CASE("levels: what does not exist, and what does not fit") {
+TEST_CASE("levels: what does not exist or does not fit is refused") {
     const Mesh mesh = shapes::plane(8).mesh();
     const Levels levels = Levels::build(mesh, {Target::ratio(0.5)});
     CHECK(status_of(levels, 1) == decimesh::Status::out_of_range);

@@ -108,7 +108,7 @@ TEST_CASE("mesh: attributes that are absent are empty") {
     CHECK(mesh.colors().empty());
 }
 
-TEST_CASE("mesh: positions come as numbers, vectors, arrays and pointers") {
+TEST_CASE("mesh: positions come as numbers or vectors or pointers") {
     const shapes::Shape shape = shapes::plane(1);
     const Bytes expected = bytes_of(shape.mesh());
     std::vector<float> numbers;
@@ -262,7 +262,7 @@ TEST_CASE("mesh: files that are none say so") {
     CHECK(status_of([&] { Mesh::read(directory.file("torn.ply")); }) == Status::format);
 }
 
-TEST_CASE("mesh: owners move, views follow what they see") {
+TEST_CASE("mesh: owners move and views follow what they see") {
     Mesh mesh = shapes::plane(2).mesh();
     const MeshView view = mesh;
     const float *const positions = mesh.positions().data();
@@ -289,7 +289,7 @@ TEST_CASE("mesh: owners move, views follow what they see") {
     CHECK(adopted.triangle_count() == 18);
 }
 
-TEST_CASE("mesh: kinds that only move, and conversions that exist") {
+TEST_CASE("mesh: what moves and what converts") {
     static_assert(!std::is_copy_constructible_v<Mesh> && !std::is_copy_assignable_v<Mesh>);
     static_assert(std::is_nothrow_move_constructible_v<Mesh> && std::is_nothrow_move_assignable_v<Mesh>);
     static_assert(!std::is_copy_constructible_v<decimesh::Levels>);

@@ -34,7 +34,7 @@ TEST_CASE("simplify: the defaults are the library's") {
     CHECK(measure.threads == measured.threads);
 }
 
-TEST_CASE("simplify: as many triangles as asked for, or one fewer") {
+TEST_CASE("simplify: as many triangles as asked for or one fewer") {
     for (const shapes::Shape &shape : {shapes::stone(24, 16), shapes::torus(24, 12), shapes::plane(16)}) {
         const Mesh mesh = shape.mesh();
         const Bytes before = bytes_of(mesh);
@@ -94,7 +94,7 @@ TEST_CASE("simplify: existing placement gives vertices of the input") {
     CHECK_FALSE(checks::are_all_in(decimesh::simplify(mesh, options).mesh.positions(), mesh.positions()));
 }
 
-TEST_CASE("simplify: locked vertices stay, bit for bit") {
+TEST_CASE("simplify: locked vertices stay bit for bit") {
     const shapes::Shape shape = shapes::stone(24, 16);
     const Mesh mesh = shape.mesh();
     Options options;
@@ -117,7 +117,7 @@ TEST_CASE("simplify: locked vertices stay, bit for bit") {
     }
 }
 
-TEST_CASE("simplify: a locked border stays, bit for bit") {
+TEST_CASE("simplify: a locked border stays bit for bit") {
     const shapes::Shape shape = shapes::plane(10);
     Options options;
     options.target = Target::triangles(2);
@@ -135,7 +135,7 @@ TEST_CASE("simplify: a locked border stays, bit for bit") {
     CHECK(checks::are_all_in(border, result.mesh.positions()));
 }
 
-TEST_CASE("simplify: topology is kept, or given up and said so") {
+TEST_CASE("simplify: topology is kept or said to be given up") {
     const Mesh torus = shapes::torus(24, 12).mesh();
     Options options;
     options.target = Target::triangles(4);
@@ -169,7 +169,7 @@ TEST_CASE("simplify: origins lead from each input vertex to where it went") {
     CHECK(std::all_of(reached.begin(), reached.end(), [](bool is_reached) { return is_reached; }));
 }
 
-TEST_CASE("simplify: attributes are carried along, and seams are kept unless they may go") {
+TEST_CASE("simplify: attributes are carried along and seams kept") {
     const shapes::Dressed dressed(shapes::stone(24, 16));
     const Simplified result = decimesh::simplify(dressed.mesh(), {Target::ratio(0.3)});
     CHECK(result.mesh.normals().size() == 3 * result.mesh.vertex_count());
@@ -196,7 +196,7 @@ TEST_CASE("simplify: the number of threads changes no byte") {
     }
 }
 
-TEST_CASE("simplify: progress rises from 0 to 1, on the caller's thread") {
+TEST_CASE("simplify: progress rises from 0 to 1 on the caller's thread") {
     const Mesh mesh = shapes::stone(48, 32).mesh();
     std::vector<float> fractions;
     Options options;

@@ -32,7 +32,7 @@ void at_once(Work work) {
 
 }   // namespace
 
-TEST_CASE("threads: one mesh and one chain serve many, each with the same bytes") {
+TEST_CASE("threads: one mesh and one chain serve many with the same bytes") {
     const decimesh::Mesh mesh = shapes::Dressed(shapes::stone(48, 32)).mesh();
     const decimesh::Levels levels =
         decimesh::Levels::build(mesh, {decimesh::Target::ratio(0.5), decimesh::Target::ratio(0.1)});
