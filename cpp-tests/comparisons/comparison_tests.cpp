@@ -10,7 +10,6 @@
 #include "distance.hpp"
 #include "meshes.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -72,22 +71,23 @@ void compare(const Mesh &mesh) {
         const auto beside = [&](const Contender &contender) {
             const Outcome theirs = run(contender, mesh, original, triangles);
             if (!arrived(theirs, triangles))
-                std::printf("    (it did not arrive: it says nothing about the target)\n");
+                std::printf("    (it is stuck there, and compared with what it has)\n");
             return theirs;
         };
         const auto not_worse = [&](const Outcome &theirs) {
-            CAPTURE(triangles);
-            CAPTURE(theirs.name);
             CHECK(ours.flips <= theirs.flips);
             CHECK(ours.non_manifold_edges <= theirs.non_manifold_edges);
             CHECK(ours.border.rms <= theirs.border.rms + rounding);
             CHECK(ours.border.maximum <= theirs.border.maximum + rounding);
         };
 
-        const Outcome lindstrom_turk = beside(cgal_lindstrom_turk());
-        CHECK(ours.distance.rms <= 1.05 * lindstrom_turk.distance.rms + rounding);
-        not_worse(lindstrom_turk);
-
+        CAPTURE(triangles);
+        {
+            const Outcome theirs = beside(cgal_lindstrom_turk());
+            CAPTURE(theirs.name);
+            CHECK(ours.distance.rms <= 1.05 * theirs.distance.rms + rounding);
+            not_worse(theirs);
+        }
         for (const auto &contender : {cgal_garland_heckbert(), openmesh_quadric(), openmesh_multiple_choice()}) {
             const Outcome theirs = beside(contender);
             CAPTURE(theirs.name);
