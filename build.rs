@@ -1,5 +1,8 @@
-//! Gives the shared library its soname, the name that linked programs ask the loader for. It carries the major version,
-//! so that a library with another ABI never takes the place of the one a program was built for.
+//! What the linker is told about the shared library.
+//!
+//! Its soname, the name that linked programs ask the loader for, carries the major version, so that a library
+//! with another ABI never takes the place of the one a program was built for. And once loaded it stays,
+//! whatever `dlclose` is told, since the threads of its pool stay and run its code.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -8,6 +11,7 @@ fn main() {
     match system.as_str() {
         "linux" | "freebsd" | "netbsd" | "openbsd" => {
             println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libdecimesh.so.{major}");
+            println!("cargo::rustc-cdylib-link-arg=-Wl,-z,nodelete");
         }
         "macos" => {
             println!("cargo::rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libdecimesh.{major}.dylib")

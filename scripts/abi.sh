@@ -101,4 +101,8 @@ if [ "$soname" != "libdecimesh.so.$major" ]; then
     echo "abi: $library calls itself '$soname', not libdecimesh.so.$major" >&2
     exit 1
 fi
+if ! readelf --dynamic "$library" | grep -q NODELETE; then
+    echo "abi: $library can be unloaded while its threads run; build.rs forbids that" >&2
+    exit 1
+fi
 echo "abi: $(wc -l <abi/symbols.txt) functions, $(wc -l <abi/constants.txt) constants, soname $soname: as recorded"
