@@ -54,6 +54,20 @@ void point_to(Buffers &buffers, Vertices &vertices) {
     buffers.colors = decimesh::interleaved(vertices, &Vertex::color);
 }
 
+/// What an engine would draw is the mesh, corner by corner.
+template <class Index>
+void check_same_surface(Span<const Index> indices, const std::vector<Vertex> &vertices, const decimesh::Mesh &mesh) {
+    REQUIRE(mesh.indices().size() == indices.size());
+    for (std::size_t corner = 0; corner < indices.size(); ++corner) {
+        const Vertex &vertex = vertices[indices[corner]];
+        const std::size_t own = mesh.indices()[corner];
+        CHECK(checks::bits(vertex.position.data()) == checks::bits(mesh.positions().data() + 3 * own));
+        CHECK(checks::bits(vertex.normal.data()) == checks::bits(mesh.normals().data() + 3 * own));
+        CHECK(std::memcmp(vertex.uv.data(), mesh.uvs().data() + 2 * own, sizeof vertex.uv) == 0);
+        CHECK(std::memcmp(vertex.color.data(), mesh.colors().data() + 4 * own, sizeof vertex.color) == 0);
+    }
+}
+
 }   // namespace
 
 TEST_CASE_TEMPLATE("indices: fewer triangles over the same vertices", Index, std::uint16_t, std::uint32_t) {
@@ -192,13 +206,35 @@ TEST_CASE_TEMPLATE("in place: vertices keep their places and the rest its values
         CHECK(checks::bits(vertices[vertex].position.data()) == checks::bits(before[vertex].position.data()));
     }
 
-    // It is the surface that simplify makes of the same mesh.
-    options.track_origins = false;
-    const decimesh::Simplified mesh = decimesh::simplify(dressed.mesh(), options);
-    REQUIRE(mesh.mesh.indices().size() == result.index_count);
+    check_same_surface(Span<const Index>(indices.data(), result.index_count), vertices,
+                       decimesh::simplify(dressed.mesh(), options).mesh);
+}
+
+TEST_CASE("in place: where the surface had to be parted both parts get vertices of their own") {
+    const shapes::Dressed dressed(shapes::torus(24, 12));
+    std::vector<Vertex> vertices = vertex_buffer(dressed);
+    std::vector<std::uint32_t> indices = dressed.shape.indices;
+    decimesh::MutableBuffers<> buffers;
+    point_to(buffers, vertices);
+    buffers.indices = indices;
+    Options options;
+    options.target = Target::triangles(8);
+    const auto result = decimesh::simplify_in_place(buffers, options);
+    CHECK(result.report.topology_changed);
+    CHECK(result.index_count <= 24);
+    check_same_surface(Span<const std::uint32_t>(indices.data(), result.index_count), vertices,
+                       decimesh::simplify(dressed.mesh(), options).mesh);
+}
+
+TEST_CASE("in place: short indices reach their vertices only whatever lies beyond") {
+    shapes::Shape shape = shapes::stone(24, 16);
+    std::vector<std::uint16_t> indices = shape.short_indices();
+    const shapes::Point far_away = {9, 9, 9};
+    shape.positions.resize(70000, far_away);
+    const auto result = decimesh::simplify_in_place(decimesh::MutableBuffers<std::uint16_t>{shape.positions, indices});
+    checks::check_count(result.index_count, indices.size() / 2);
     for (std::size_t corner = 0; corner < result.index_count; ++corner) {
-        CHECK(checks::bits(vertices[indices[corner]].position.data()) ==
-              checks::bits(mesh.mesh.positions().data() + 3 * mesh.mesh.indices()[corner]));
+        CHECK(shape.positions[indices[corner]] != far_away);
     }
 }
 

@@ -1,0 +1,41 @@
+/// The wrapper under C++20, where spans are also the standard's, and without run-time type information.
+
+#include <decimesh.hpp>
+
+#include <algorithm>
+#include <ranges>
+#include <span>
+#include <string>
+
+namespace {
+
+static_assert(std::is_convertible_v<decimesh::Span<const float>, std::span<const float>>);
+static_assert(std::is_convertible_v<decimesh::Span<float>, std::span<const float>>);
+static_assert(std::is_convertible_v<std::span<float>, decimesh::Span<const float>>);
+static_assert(std::is_convertible_v<std::span<float>, decimesh::Stream<float, 3>>);
+static_assert(!std::is_convertible_v<std::span<const float>, decimesh::Stream<float, 3>>);
+static_assert(std::ranges::contiguous_range<decimesh::Span<const float>>);
+static_assert(std::ranges::borrowed_range<decimesh::Span<const float>>);
+
+/// Levels that are about to end give no mesh away.
+template <class Levels>
+concept gives_mesh = requires(Levels &&levels) { std::forward<Levels>(levels).mesh(0); };
+static_assert(gives_mesh<decimesh::Levels &>);
+static_assert(!gives_mesh<decimesh::Levels>);
+
+}   // namespace
+
+int main() {
+    const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::uint32_t triangle[] = {0, 1, 2};
+    const decimesh::Mesh mesh = decimesh::Mesh::from_buffers(corners, triangle);
+    const decimesh::Simplified same =
+        decimesh::simplify(mesh, {.target = decimesh::Target::triangles(1), .lock_boundary = true});
+    const std::span<const std::uint32_t> indices = same.mesh.indices();
+    try {
+        decimesh::simplify(mesh, {.progress = [](float) -> bool { throw std::string("stop"); }});
+    } catch (const std::string &) {
+        return std::ranges::equal(indices, triangle) ? 0 : 1;
+    }
+    return 1;
+}
