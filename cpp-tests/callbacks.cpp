@@ -94,7 +94,7 @@ TEST_CASE("callbacks: cancelling at every step from C") {
 TEST_CASE("callbacks: cancelling a measurement at every step from C") {
     const decimesh::Mesh mesh = stone().mesh();
     decimesh_deviation_options options;
-    decimesh_deviation_options_init(&options);
+    decimesh_deviation_options_init(&options, sizeof options);
     options.samples = 500;
     options.progress = Countdown::report;
     int steps = 0;

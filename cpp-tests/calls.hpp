@@ -31,7 +31,7 @@ extern const std::array<Named, 4> on_options;
 
 inline decimesh_simplify_options default_options() {
     decimesh_simplify_options options;
-    decimesh_simplify_options_init(&options);
+    decimesh_simplify_options_init(&options, sizeof options);
     return options;
 }
 

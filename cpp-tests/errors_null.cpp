@@ -106,13 +106,13 @@ TEST_CASE("errors: levels that are NULL or do not exist") {
 TEST_CASE("errors: what cannot fail takes NULL") {
     decimesh_mesh_destroy(nullptr);
     decimesh_levels_destroy(nullptr);
-    decimesh_buffers_init(nullptr);
-    decimesh_mutable_buffers_init(nullptr);
-    decimesh_statistics_init(nullptr);
-    decimesh_simplify_options_init(nullptr);
-    decimesh_simplify_report_init(nullptr);
-    decimesh_deviation_options_init(nullptr);
-    decimesh_deviation_result_init(nullptr);
+    decimesh_buffers_init(nullptr, sizeof(decimesh_buffers));
+    decimesh_mutable_buffers_init(nullptr, sizeof(decimesh_mutable_buffers));
+    decimesh_statistics_init(nullptr, sizeof(decimesh_statistics));
+    decimesh_simplify_options_init(nullptr, sizeof(decimesh_simplify_options));
+    decimesh_simplify_report_init(nullptr, sizeof(decimesh_simplify_report));
+    decimesh_deviation_options_init(nullptr, sizeof(decimesh_deviation_options));
+    decimesh_deviation_result_init(nullptr, sizeof(decimesh_deviation_result));
     CHECK(decimesh_mesh_vertex_count(nullptr) == 0);
     CHECK(decimesh_mesh_triangle_count(nullptr) == 0);
     CHECK(decimesh_levels_count(nullptr) == 0);

@@ -243,7 +243,7 @@ TEST_CASE("errors: structs that are read may be newer if nothing in them is unkn
         return status;
     });
     decimesh_deviation_options measuring;
-    decimesh_deviation_options_init(&measuring);
+    decimesh_deviation_options_init(&measuring, sizeof measuring);
     measuring.samples = 100;
     check_sizes(measuring, "decimesh_deviation_options", [&](const decimesh_deviation_options *raw) {
         auto result = calls::untouched_struct<decimesh_deviation_result>();
@@ -296,7 +296,7 @@ TEST_CASE("errors: structs that are written may be older or newer") {
         return decimesh_mesh_statistics(mesh.get(), raw);
     });
     decimesh_deviation_options measuring;
-    decimesh_deviation_options_init(&measuring);
+    decimesh_deviation_options_init(&measuring, sizeof measuring);
     measuring.samples = 100;
     check_written_sizes<decimesh_deviation_result>("decimesh_deviation_result", [&](decimesh_deviation_result *raw) {
         return decimesh_deviation(mesh.get(), mesh.get(), &measuring, raw);

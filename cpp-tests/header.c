@@ -13,14 +13,14 @@ int main(void) {
     decimesh_mesh *mesh = NULL;
     decimesh_mesh *simplified = NULL;
 
-    decimesh_buffers_init(&buffers);
+    decimesh_buffers_init(&buffers, sizeof buffers);
     buffers.positions = square;
     buffers.vertex_count = 5;
     buffers.index_type = DECIMESH_INDEX_U16;
     buffers.indices = fan;
     buffers.index_count = 12;
-    decimesh_simplify_options_init(&options);
-    decimesh_simplify_report_init(&report);
+    decimesh_simplify_options_init(&options, sizeof options);
+    decimesh_simplify_report_init(&report, sizeof report);
     if (decimesh_mesh_from_buffers(&buffers, &mesh) != DECIMESH_OK ||
         decimesh_simplify(mesh, &options, &simplified, &report) != DECIMESH_OK) {
         fprintf(stderr, "%s\n", decimesh_last_error_message());

@@ -134,7 +134,7 @@ Dressed::Dressed(Shape undressed) : shape(std::move(undressed)) {
 
 decimesh_buffers Dressed::raw() const {
     decimesh_buffers buffers;
-    decimesh_buffers_init(&buffers);
+    decimesh_buffers_init(&buffers, sizeof buffers);
     buffers.positions = shape.positions.data()->data();
     buffers.vertex_count = shape.positions.size();
     buffers.indices = shape.indices.data();
@@ -147,7 +147,7 @@ decimesh_buffers Dressed::raw() const {
 
 decimesh_mutable_buffers Dressed::raw_mutable() {
     decimesh_mutable_buffers buffers;
-    decimesh_mutable_buffers_init(&buffers);
+    decimesh_mutable_buffers_init(&buffers, sizeof buffers);
     buffers.positions = shape.positions.data()->data();
     buffers.vertex_count = shape.positions.size();
     buffers.indices = shape.indices.data();

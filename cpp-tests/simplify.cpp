@@ -1,8 +1,10 @@
 /// Simplification: counts, placement, locks, topology, origins, progress.
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <decimesh.hpp>
 #include <doctest/doctest.h>
@@ -21,17 +23,35 @@ TEST_SUITE_BEGIN("quick");
 
 TEST_CASE("simplify: the defaults are the library's") {
     decimesh_simplify_options library;
-    decimesh_simplify_options_init(&library);
+    decimesh_simplify_options_init(&library, sizeof library);
     const Options defaults;
     const decimesh::detail::SimplifyCall call(defaults, 0);
     CHECK(std::memcmp(&call.raw, &library, sizeof library) == 0);
 
     decimesh_deviation_options measured;
-    decimesh_deviation_options_init(&measured);
+    decimesh_deviation_options_init(&measured, sizeof measured);
     const decimesh::DeviationOptions measure;
     CHECK(measure.samples == measured.samples);
     CHECK(measure.seed == measured.seed);
     CHECK(measure.threads == measured.threads);
+}
+
+TEST_CASE("simplify: an init function writes as much as its caller has room for") {
+    std::vector<unsigned char> room(4096, 0xAB);
+    auto *const options = reinterpret_cast<decimesh_simplify_options *>(room.data());
+
+    // An older program's struct ends early; what lies behind it is not the library's.
+    decimesh_simplify_options_init(options, 16);
+    CHECK(options->struct_size == 16);
+    CHECK(options->target_value == 0.5);
+    CHECK(std::all_of(room.begin() + 16, room.end(), [](unsigned char byte) { return byte == 0xAB; }));
+
+    // A newer program's struct goes on: with zeros, which mean that nothing is set.
+    decimesh_simplify_options_init(options, room.size());
+    CHECK(options->struct_size == room.size());
+    CHECK(options->keep_seams == 1);
+    const auto end = static_cast<std::ptrdiff_t>(sizeof *options);
+    CHECK(std::all_of(room.begin() + end, room.end(), [](unsigned char byte) { return byte == 0; }));
 }
 
 TEST_CASE("simplify: as many triangles as asked for or one fewer") {

@@ -758,13 +758,19 @@ const char *decimesh_status_name(decimesh_status status);
 
 /**
  * Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_buffers), as the caller was compiled: no more is written.
  */
-void decimesh_buffers_init(struct decimesh_buffers *buffers);
+void decimesh_buffers_init(struct decimesh_buffers *buffers,
+                           size_t struct_size);
 
 /**
  * Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_mutable_buffers), as the caller was compiled: no more is written.
  */
-void decimesh_mutable_buffers_init(struct decimesh_mutable_buffers *buffers);
+void decimesh_mutable_buffers_init(struct decimesh_mutable_buffers *buffers,
+                                   size_t struct_size);
 
 /**
  * Makes a mesh of a copy of the caller's buffers, which are not needed any more afterwards.
@@ -877,8 +883,11 @@ const uint8_t *decimesh_mesh_colors(const struct decimesh_mesh *mesh);
 
 /**
  * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_statistics), as the caller was compiled: no more is written.
  */
-void decimesh_statistics_init(struct decimesh_statistics *statistics);
+void decimesh_statistics_init(struct decimesh_statistics *statistics,
+                              size_t struct_size);
 
 /**
  * Counts what a mesh is made of, into *statistics, which decimesh_statistics_init has set up.
@@ -891,13 +900,19 @@ decimesh_status decimesh_mesh_statistics(const struct decimesh_mesh *mesh,
 
 /**
  * Sets the defaults: half of the triangles, new vertices, all threads. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_simplify_options), as the caller was compiled: no more is written.
  */
-void decimesh_simplify_options_init(struct decimesh_simplify_options *options);
+void decimesh_simplify_options_init(struct decimesh_simplify_options *options,
+                                    size_t struct_size);
 
 /**
  * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_simplify_report), as the caller was compiled: no more is written.
  */
-void decimesh_simplify_report_init(struct decimesh_simplify_report *report);
+void decimesh_simplify_report_init(struct decimesh_simplify_report *report,
+                                   size_t struct_size);
 
 /**
  * Simplifies a mesh by quadric edge collapses, in linear time (HQMS: Chen, Fahn, Tsai, Chen and Lin, "A
@@ -1029,13 +1044,19 @@ decimesh_status decimesh_levels_select(const struct decimesh_levels *levels,
 
 /**
  * Sets the defaults: 500000 samples a direction, all threads. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_deviation_options), as the caller was compiled: no more is written.
  */
-void decimesh_deviation_options_init(struct decimesh_deviation_options *options);
+void decimesh_deviation_options_init(struct decimesh_deviation_options *options,
+                                     size_t struct_size);
 
 /**
  * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_deviation_result), as the caller was compiled: no more is written.
  */
-void decimesh_deviation_result_init(struct decimesh_deviation_result *result);
+void decimesh_deviation_result_init(struct decimesh_deviation_result *result,
+                                    size_t struct_size);
 
 /**
  * Measures the distance between the surfaces of two meshes, in both directions, as Metro does: points on

@@ -6,8 +6,10 @@
 //! is the 3x3 matrix A alone. That is what lets single precision suffice wherever the mesh lies.
 //!
 //! Departures: planes are weighted by the area of their face (15 to 30 % less error than the unit
-//! weights of equation 2), and the linear system of the optimal placement is regularised towards
-//! the middle of the edge, so that it has one solution on flat and cylindrical regions too.
+//! weights of equation 2); borders are held by their lines; the linear system of the optimal placement
+//! is regularised towards the middle of the edge, so that it has one solution on flat and cylindrical
+//! regions too, and is drawn to the plane on which the volume stays what it is (Lindstrom and Turk,
+//! *Fast and memory efficient polygonal simplification*, 1998): without that, thin limbs waste away.
 
 use glam::Vec3A;
 
@@ -17,11 +19,28 @@ use glam::Vec3A;
 /// 1e-6 the error falls by 1 to 2 %, and on the dragon to 1,000 triangles by a fifth.
 const REGULARISATION: f32 = 1e-6;
 
+/// How much the placement is drawn to where the volume stays, as a multiple of the quadric's trace.
+///
+/// From 0 to 1 the error of animals with thin legs, at 2 % of their triangles, falls by a fifth to a half,
+/// from 1 to 10 by another tenth; on scans nothing changes.
+const VOLUME: f32 = 10.0;
+
+/// Faces whose normals cancel to less than this share of their area enclose no volume to keep.
+const FLAT: f32 = 1e-6;
+
+/// How much the line of a border edge weighs beside the faces.
+///
+/// A plane upright on the face, the usual way, holds the border across alone, and lets it sink: in place of
+/// it the line halves the deviation of borders. From 1 to 16 it falls by another half, and that of surfaces
+/// with many holes rises by up to 10 %.
+const BORDER: f32 = 4.0;
+
 /// A cost below this share of `trace * length²` is rounding: the planes are the same plane.
 const ROUNDING: f32 = 1e-7;
 
 /// A sum of squared distances, area-weighted, to planes through the origin: the symmetric matrix
-/// `A` of `x -> xᵀ A x`.
+/// `A` of `x -> xᵀ A x`; and the sum of the faces' vector areas, doubled, whose product with `x` is six
+/// times the volume that the faces sweep when their vertex goes to `x`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Quadric {
     xx: f32,
@@ -30,6 +49,7 @@ pub(crate) struct Quadric {
     yy: f32,
     yz: f32,
     zz: f32,
+    sweep: [f32; 3],
 }
 
 impl Quadric {
@@ -45,14 +65,22 @@ impl Quadric {
         self.zz += scaled.z * normal.z;
     }
 
-    /// Adds the plane through `edge`, perpendicular to a face that ends there, weighted by the
+    /// Forgets what its faces sweep: those around a border enclose no volume.
+    pub(crate) fn open(&mut self) {
+        self.sweep = [0.0; 3];
+    }
+
+    /// Adds the line along `edge`, on which a face ends: the squared distance from it, weighted by the
     /// edge's squared length, so that it counts like the faces on the other side would.
-    pub(crate) fn add_border(&mut self, edge: Vec3A, cross: Vec3A) {
-        let normal = edge.cross(cross);
-        let length_squared = normal.length_squared();
-        if length_squared > f32::MIN_POSITIVE {
-            self.add_plane(normal, edge.length_squared() / length_squared);
-        }
+    pub(crate) fn add_border(&mut self, edge: Vec3A) {
+        let scaled = edge * -BORDER;
+        let length_squared = BORDER * edge.length_squared();
+        self.xx += scaled.x * edge.x + length_squared;
+        self.xy += scaled.x * edge.y;
+        self.xz += scaled.x * edge.z;
+        self.yy += scaled.y * edge.y + length_squared;
+        self.yz += scaled.y * edge.z;
+        self.zz += scaled.z * edge.z + length_squared;
     }
 
     /// The weighted sum of squared distances at `x`.
@@ -62,6 +90,10 @@ impl Quadric {
             + x.y * (self.yy * x.y + 2.0 * self.yz * x.z)
             + x.z * self.zz * x.z;
         cost.max(0.0)
+    }
+
+    fn sweep(&self) -> Vec3A {
+        Vec3A::from(self.sweep)
     }
 
     fn trace(&self) -> f32 {
@@ -84,6 +116,7 @@ impl Quadric {
             yy: self.yy + other.yy,
             yz: self.yz + other.yz,
             zz: self.zz + other.zz,
+            sweep: (self.sweep() + other.sweep()).to_array(),
         }
     }
 
@@ -112,6 +145,7 @@ impl Quadric {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct QuadricSum {
     rows: [Vec3A; 3],
+    sweep: Vec3A,
 }
 
 impl QuadricSum {
@@ -123,13 +157,14 @@ impl QuadricSum {
         self.rows[0] += cross * scaled.x;
         self.rows[1] += cross * scaled.y;
         self.rows[2] += cross * scaled.z;
+        self.sweep += cross;
     }
 
     /// The sum.
     #[inline(always)]
     pub(crate) fn quadric(&self) -> Quadric {
         let [x, y, z] = self.rows;
-        Quadric { xx: x.x, xy: x.y, xz: x.z, yy: y.y, yz: y.z, zz: z.z }
+        Quadric { xx: x.x, xy: x.y, xz: x.z, yy: y.y, yz: y.z, zz: z.z, sweep: self.sweep.to_array() }
     }
 }
 
@@ -166,7 +201,8 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placemen
     if constant <= rounding {
         return Placement { offset: Vec3A::ZERO, cost: constant.max(0.0) + drawn(edge) };
     }
-    let offset = sum.solve(shift, pull + 0.5 * shift * edge);
+    let (keeping_volume, volume_pull) = volume_plane(source, target, edge, trace);
+    let offset = sum.plus(&keeping_volume).solve(shift, pull + 0.5 * shift * edge + volume_pull);
     if offset.length_squared() < 9.0 * length_squared {
         let cost = constant - 2.0 * offset.dot(pull) + offset.dot(sum.apply(offset));
         return Placement { offset, cost: cost.max(0.0) + drawn(offset) };
@@ -180,6 +216,25 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placemen
         }
     }
     Placement { cost: best.cost + drawn(best.offset), ..best }
+}
+
+/// The plane on which the vertex must lie for the volume to stay what it is, `sweep * x = swept`, weighted:
+/// its quadric, and the right side it adds to the linear system. Zero where a ring is open, and encloses
+/// nothing.
+#[inline(always)]
+fn volume_plane(source: &Quadric, target: &Quadric, edge: Vec3A, trace: f32) -> (Quadric, Vec3A) {
+    let (of_source, of_target) = (source.sweep(), target.sweep());
+    let sweep = of_source + of_target;
+    let sweep_squared = sweep.length_squared();
+    let is_open = of_source == Vec3A::ZERO || of_target == Vec3A::ZERO;
+    let weight = if is_open || sweep_squared <= FLAT * FLAT * trace * trace {
+        0.0
+    } else {
+        VOLUME * trace / sweep_squared
+    };
+    let mut quadric = Quadric::default();
+    quadric.add_plane(sweep, weight);
+    (quadric, weight * of_target.dot(edge) * sweep)
 }
 
 #[cfg(test)]
@@ -251,18 +306,51 @@ mod tests {
             prop_assert!((face.at(x) - expected).abs() <= 1e-4 * cross.length() * x.length_squared() + 1e-9);
         }
 
-        /// The border's plane holds the edge and stands upright on the face.
+        /// The border's line holds in every direction but its own.
         #[test]
-        fn a_border_is_held_across_and_free_along(edge in vector(2.0), other in vector(2.0), up in -2.0f32..2.0) {
-            let cross = edge.cross(other);
-            prop_assume!(cross.length() > 1e-2 && edge.length() > 1e-1);
+        fn a_border_is_held_across_and_free_along(edge in vector(2.0), other in vector(2.0), along in -2.0f32..2.0) {
+            let across = other.reject_from(edge);
+            prop_assume!(across.length() > 1e-1 && edge.length() > 1e-1);
             let mut border = Quadric::default();
-            border.add_border(edge, cross);
-            let trace = edge.length_squared();
-            let on_plane = edge * up + cross * up;
-            prop_assert!(border.at(on_plane) <= 1e-5 * trace * on_plane.length_squared() + 1e-9);
-            let across = edge.cross(cross).normalize() * up;
-            prop_assert!((border.at(across) - trace * up * up).abs() <= 1e-4 * trace * up * up + 1e-9);
+            border.add_border(edge);
+            let expected = BORDER * edge.length_squared() * across.length_squared();
+            let scale = edge.length_squared() * (across + along * edge).length_squared();
+            prop_assert!((border.at(across + along * edge) - expected).abs() <= 1e-4 * scale);
+        }
+
+        /// Around two closed rings, what the volume changes by is a small share of what it changes by
+        /// without the term; an open ring has no say.
+        #[test]
+        fn placement_keeps_the_volume(
+            source in prop::collection::vec(vector(1.0), 3..8),
+            target in prop::collection::vec(vector(1.0), 3..8),
+            edge in vector(2.0),
+        ) {
+            prop_assume!(edge.length() > 0.2);
+            let ring = |crosses: &[Vec3A]| {
+                let mut sum = QuadricSum::default();
+                crosses.iter().for_each(|&cross| sum.add_face(cross));
+                sum.quadric()
+            };
+            let (source, target) = (ring(&source), ring(&target));
+            let trace = source.plus(&target).trace();
+            prop_assume!(source.plus(&target).sweep().length() > 0.1 * trace);
+            let swept = |offset: Vec3A| source.sweep().dot(offset) + target.sweep().dot(offset - edge);
+            let opened = |quadric: &Quadric| {
+                let mut open = *quadric;
+                open.open();
+                open
+            };
+            let free = place(&opened(&source), &opened(&target), edge);
+            let half_open = place(&opened(&source), &target, edge);
+            prop_assert_eq!(free, half_open);
+            let kept = place(&source, &target, edge);
+            // Neither an end that was taken as it is, nor what stands in for a place too far away.
+            let solved = |placement: &Placement| ![Vec3A::ZERO, 0.5 * edge, edge].contains(&placement.offset);
+            if solved(&kept) && solved(&free) {
+                let rounding = 1e-3 * trace * edge.length();
+                prop_assert!(swept(kept.offset).abs() <= 0.11 * swept(free.offset).abs() + rounding);
+            }
         }
 
         /// No place is better than the one found, whether beside it or far away.

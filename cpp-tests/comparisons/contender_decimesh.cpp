@@ -22,7 +22,7 @@ class DecimeshTask final : public Task {
 public:
     DecimeshTask(const Mesh &mesh, unsigned threads) : thread_count(threads) {
         decimesh_buffers buffers;
-        decimesh_buffers_init(&buffers);
+        decimesh_buffers_init(&buffers, sizeof buffers);
         buffers.positions = mesh.positions.front().data();
         buffers.vertex_count = mesh.positions.size();
         buffers.indices = mesh.triangles.front().data();
@@ -34,7 +34,7 @@ public:
 
     void simplify(std::size_t triangles) override {
         decimesh_simplify_options options;
-        decimesh_simplify_options_init(&options);
+        decimesh_simplify_options_init(&options, sizeof options);
         options.target = DECIMESH_TARGET_TRIANGLES;
         options.target_value = static_cast<double>(triangles);
         options.threads = thread_count;

@@ -39,14 +39,14 @@ int main(void) {
         }
     }
 
-    decimesh_buffers_init(&buffers);
+    decimesh_buffers_init(&buffers, sizeof buffers);
     buffers.positions = &positions[0][0];
     buffers.vertex_count = row * row;
     buffers.indices = indices;
     buffers.index_count = side * side * 6;
     check(decimesh_mesh_from_buffers(&buffers, &plate));
 
-    decimesh_simplify_options_init(&options);
+    decimesh_simplify_options_init(&options, sizeof options);
     options.target = DECIMESH_TARGET_TRIANGLES;
     options.target_value = 2;
     check(decimesh_simplify(plate, &options, &simplified, NULL));

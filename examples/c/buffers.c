@@ -24,7 +24,7 @@ int main(void) {
 
     /* decimesh reads interleaved vertices as they are. Indices of 16 bits would do as well. */
     decimesh_buffers buffers;
-    decimesh_buffers_init(&buffers);
+    decimesh_buffers_init(&buffers, sizeof buffers);
     buffers.positions = vertices[0].position;
     buffers.positions_stride = sizeof *vertices;
     buffers.vertex_count = vertex_count;
@@ -33,13 +33,13 @@ int main(void) {
     buffers.index_type = DECIMESH_INDEX_U32;
 
     decimesh_simplify_options options;
-    decimesh_simplify_options_init(&options);
+    decimesh_simplify_options_init(&options, sizeof options);
     options.target = DECIMESH_TARGET_RATIO;
     options.target_value = 0.1;
     options.lock_boundary = 1; /* the next tile of the landscape still fits */
 
     decimesh_simplify_report report;
-    decimesh_simplify_report_init(&report);
+    decimesh_simplify_report_init(&report, sizeof report);
     size_t fewer_count = 0;
     const decimesh_status status = decimesh_simplify_indices(fewer, &buffers, &options, &fewer_count, &report);
     if (status != DECIMESH_OK) {

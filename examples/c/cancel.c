@@ -33,7 +33,7 @@ static int32_t on_progress(void *user, float fraction) {
 static void *work(void *user) {
     job *job = user;
     decimesh_simplify_options options;
-    decimesh_simplify_options_init(&options);
+    decimesh_simplify_options_init(&options, sizeof options);
     options.target_value = 0.01;
     options.progress = on_progress;
     options.progress_user = job;
@@ -55,7 +55,7 @@ static decimesh_mesh *hills(void) {
         hills_fill_vertices(CELLS, vertices);
         hills_fill_indices(CELLS, indices);
         decimesh_buffers buffers;
-        decimesh_buffers_init(&buffers);
+        decimesh_buffers_init(&buffers, sizeof buffers);
         buffers.positions = vertices[0].position;
         buffers.positions_stride = sizeof *vertices;
         buffers.vertex_count = vertex_count;

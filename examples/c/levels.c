@@ -39,7 +39,7 @@ static decimesh_mesh *hills(void) {
     hills_fill_indices(CELLS, indices);
 
     decimesh_buffers buffers;
-    decimesh_buffers_init(&buffers);
+    decimesh_buffers_init(&buffers, sizeof buffers);
     buffers.positions = vertices[0].position;
     buffers.positions_stride = sizeof *vertices;
     buffers.vertex_count = vertex_count;
@@ -63,7 +63,7 @@ int main(void) {
     /* Each level has about 40 % of the triangles of the one before. */
     const double ratios[LEVELS] = {0.4, 0.16, 0.064, 0.0256, 0.01};
     decimesh_simplify_options options;
-    decimesh_simplify_options_init(&options);
+    decimesh_simplify_options_init(&options, sizeof options);
     options.target = DECIMESH_TARGET_RATIO;
     decimesh_levels *levels = NULL;
     require(decimesh_levels_build(mesh, &options, ratios, LEVELS, &levels));
@@ -72,7 +72,7 @@ int main(void) {
     for (size_t level = 0; level < decimesh_levels_count(levels); ++level) {
         const decimesh_mesh *coarse = NULL; /* belongs to the levels */
         decimesh_simplify_report report;
-        decimesh_simplify_report_init(&report);
+        decimesh_simplify_report_init(&report, sizeof report);
         require(decimesh_levels_mesh(levels, level, &coarse));
         require(decimesh_levels_report(levels, level, &report));
         printf("%5zu  %9zu  %.2f m\n", level, decimesh_mesh_triangle_count(coarse), (double)report.error);

@@ -169,17 +169,24 @@ impl decimesh_mutable_buffers {
 }
 
 /// Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_buffers), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_buffers_init(buffers: *mut decimesh_buffers) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(buffers) }
+pub unsafe extern "C" fn decimesh_buffers_init(buffers: *mut decimesh_buffers, struct_size: usize) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(buffers, struct_size) }
 }
 
 /// Makes *buffers empty: struct_size is set, indices are 32 bits wide, all else is 0. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_mutable_buffers), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_mutable_buffers_init(buffers: *mut decimesh_mutable_buffers) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(buffers) }
+pub unsafe extern "C" fn decimesh_mutable_buffers_init(
+    buffers: *mut decimesh_mutable_buffers,
+    struct_size: usize,
+) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(buffers, struct_size) }
 }
 
 /// A copy of the mesh in `buffers`.

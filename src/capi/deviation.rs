@@ -109,17 +109,27 @@ impl From<Deviation> for decimesh_deviation_result {
 }
 
 /// Sets the defaults: 500000 samples a direction, all threads. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_deviation_options), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_deviation_options_init(options: *mut decimesh_deviation_options) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(options) }
+pub unsafe extern "C" fn decimesh_deviation_options_init(
+    options: *mut decimesh_deviation_options,
+    struct_size: usize,
+) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(options, struct_size) }
 }
 
 /// Sets struct_size and makes all else 0. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_deviation_result), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_deviation_result_init(result: *mut decimesh_deviation_result) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(result) }
+pub unsafe extern "C" fn decimesh_deviation_result_init(
+    result: *mut decimesh_deviation_result,
+    struct_size: usize,
+) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(result, struct_size) }
 }
 
 /// Measures the distance between the surfaces of two meshes, in both directions, as Metro does: points on

@@ -326,17 +326,27 @@ unsafe fn read_locked(first: *const u32, count: usize) -> Result<Vec<u32>, Failu
 }
 
 /// Sets the defaults: half of the triangles, new vertices, all threads. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_simplify_options), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_simplify_options_init(options: *mut decimesh_simplify_options) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(options) }
+pub unsafe extern "C" fn decimesh_simplify_options_init(
+    options: *mut decimesh_simplify_options,
+    struct_size: usize,
+) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(options, struct_size) }
 }
 
 /// Sets struct_size and makes all else 0. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_simplify_report), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_simplify_report_init(report: *mut decimesh_simplify_report) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(report) }
+pub unsafe extern "C" fn decimesh_simplify_report_init(
+    report: *mut decimesh_simplify_report,
+    struct_size: usize,
+) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(report, struct_size) }
 }
 
 /// Simplifies a mesh by quadric edge collapses, in linear time (HQMS: Chen, Fahn, Tsai, Chen and Lin, "A

@@ -101,10 +101,12 @@ impl From<Statistics> for decimesh_statistics {
 }
 
 /// Sets struct_size and makes all else 0. NULL is left alone.
+///
+/// struct_size is sizeof(decimesh_statistics), as the caller was compiled: no more is written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn decimesh_statistics_init(statistics: *mut decimesh_statistics) {
-    // SAFETY: the caller's pointer is NULL or points to such a struct.
-    unsafe { structs::initialize(statistics) }
+pub unsafe extern "C" fn decimesh_statistics_init(statistics: *mut decimesh_statistics, struct_size: usize) {
+    // SAFETY: the caller\'s pointer is NULL or points to a struct of that size.
+    unsafe { structs::initialize(statistics, struct_size) }
 }
 
 /// Counts what a mesh is made of, into *statistics, which decimesh_statistics_init has set up.

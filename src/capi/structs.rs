@@ -78,13 +78,20 @@ pub(super) unsafe fn write<T: Versioned>(pointer: *mut T, size: usize, value: &T
     }
 }
 
-/// The body of an init function: NULL is left alone.
+/// The body of an init function: NULL is left alone. An older caller's struct is filled as far as it
+/// goes, and what a newer one has beyond ours becomes 0: not set.
 ///
 /// # Safety
-/// `pointer` is NULL or points to room for a `T`.
-pub(super) unsafe fn initialize<T: Versioned>(pointer: *mut T) {
-    if !pointer.is_null() {
-        // SAFETY: as the caller of this function promises.
-        unsafe { pointer.write_unaligned(T::initial()) };
+/// `pointer` is NULL or points to room for `size` bytes.
+pub(super) unsafe fn initialize<T: Versioned>(pointer: *mut T, size: usize) {
+    if pointer.is_null() || size < size_of::<u32>() {
+        return;
+    }
+    // SAFETY: as the caller of this function promises.
+    unsafe {
+        ptr::write_bytes(pointer.cast::<u8>(), 0, size);
+        write(pointer, size, &T::initial());
+        // A size that no struct has stays for the calls to refuse.
+        pointer.cast::<u32>().write_unaligned(u32::try_from(size).unwrap_or(u32::MAX));
     }
 }

@@ -122,7 +122,8 @@ impl Edge<'_> {
     }
 
     /// Whether a face of the source would come to lie on one of the target. As the links have no
-    /// vertices in common but those opposite the edge, it can only be one with both of these.
+    /// vertices in common but those opposite the edge, it can only be one with both of these. Two faces
+    /// on the same three vertices lie on each other already, and make one opposite vertex look like two.
     #[inline(always)]
     fn joins_faces(&self) -> bool {
         let source = self.source.vertex;
@@ -136,7 +137,7 @@ impl Edge<'_> {
         }
         let [a, b] = opposite;
         let spans = |ring: &Ring| ring.names().any(|pair| pair == (a, b) || pair == (b, a));
-        spans(self.source) && spans(self.target)
+        a == b || spans(self.source) && spans(self.target)
     }
 }
 

@@ -56,7 +56,7 @@ impl Gathering<'_> {
 }
 
 impl Ring {
-    /// Empties the ring for `vertex` and lets `fill` add up to `room` faces; then adds the planes
+    /// Empties the ring for `vertex` and lets `fill` add up to `room` faces; then adds the lines
     /// that hold borders. What `fill` answers is returned.
     #[inline(always)]
     pub(crate) fn gather(
@@ -90,7 +90,7 @@ impl Ring {
         self.boundary = boundary;
         self.quadric = sum.quadric();
         if boundary && complete {
-            self.add_border_planes();
+            self.add_border_lines();
         }
         complete
     }
@@ -145,12 +145,13 @@ impl Ring {
         }
     }
 
-    /// Holds borders by a plane for each of their faces.
+    /// Holds borders by the lines of their edges, and no volume.
     #[cold]
     #[inline(never)]
-    fn add_border_planes(&mut self) {
+    fn add_border_lines(&mut self) {
         let mut quadric = self.quadric;
-        self.visit_borders(|edge, spoke| quadric.add_border(edge, spoke.cross));
+        quadric.open();
+        self.visit_borders(|edge, _| quadric.add_border(edge));
         self.quadric = quadric;
     }
 

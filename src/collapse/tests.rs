@@ -187,6 +187,15 @@ proptest! {
     }
 }
 
+/// Two faces on the same vertices have one vertex opposite their edge, not two: vertex 4, which both ends
+/// know too, must not pass for the other.
+#[test]
+fn a_pillow_has_one_opposite_vertex() -> Result<(), TestCaseError> {
+    let faces = [[4, 8, 0], [4, 0, 8], [0, 2, 3], [0, 4, 7], [3, 2, 0], [4, 0, 7], [4, 2, 5]];
+    let positions = (0..9).map(|vertex| [vertex as f32, (vertex * vertex % 5) as f32, (vertex % 4) as f32]);
+    check_every_edge(&Mesh::new(positions.collect(), faces.to_vec()).unwrap())
+}
+
 /// A thin face, seen from its far end, whose corner moves onto the line through the other two: what
 /// is left of its area is rounding, many times what its small side and the way moved suggest.
 #[test]
