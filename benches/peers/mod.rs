@@ -1,82 +1,87 @@
-//! meshoptimizer beside decimesh, on the same terms: its defaults, no limit of error, the same target.
+//! Simplifiers beside decimesh: a file for each library.
+
+pub(crate) mod meshoptimizer;
 
 use std::borrow::Cow;
 
 use decimesh::Mesh;
-use meshopt::{SimplifyOptions, VertexDataAdapter};
+use openmesh_sys::{Decimation, Method};
 
-/// Relative to the extent of the mesh; beyond what any collapse costs, so that the target decides.
-const NO_ERROR_LIMIT: f32 = 1e3;
+use meshoptimizer::Function;
 
-/// A simplifier of meshoptimizer's.
+/// Someone else's simplifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Peer {
-    /// `meshopt_simplify`: collapses into vertices of the input.
-    Simplify,
-    /// `meshopt_simplifyWithUpdate`: moves the vertices too.
-    SimplifyWithUpdate,
+    Meshoptimizer(Function),
+    OpenMesh(Method),
+}
+
+/// meshoptimizer's two.
+pub(crate) const MESHOPTIMIZER: [Peer; 2] =
+    [Peer::Meshoptimizer(Function::Simplify), Peer::Meshoptimizer(Function::SimplifyWithUpdate)];
+
+/// OpenMesh's two, by quadrics alone. To be asked only where it is [`openmesh_sys::AVAILABLE`].
+pub(crate) const OPENMESH: [Peer; 2] =
+    [Peer::OpenMesh(Method::Quadric), Peer::OpenMesh(Method::MultipleChoice)];
+
+/// A mesh as a peer has it, before it simplifies it or after.
+pub(crate) enum Held<'a> {
+    Meshoptimizer(Function, Buffers<'a>),
+    OpenMesh(Method, openmesh_sys::Mesh),
+}
+
+/// Positions and the corners of triangles.
+#[derive(Debug, Clone)]
+pub(crate) struct Buffers<'a> {
+    pub(crate) positions: Cow<'a, [[f32; 3]]>,
+    pub(crate) indices: Cow<'a, [u32]>,
 }
 
 impl Peer {
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Simplify => "meshopt simplify",
-            Self::SimplifyWithUpdate => "meshopt simplifyWithUpdate",
+            Self::Meshoptimizer(function) => function.name(),
+            Self::OpenMesh(Method::Quadric) => "OpenMesh quadric",
+            Self::OpenMesh(Method::MultipleChoice) => "OpenMesh multiple choice",
         }
     }
 
-    /// What the peer works on: copies of the buffers that it overwrites, as decimesh leaves its input
-    /// alone too. To be made outside the timing, which is in the peer's favour.
-    pub(crate) fn input(self, mesh: &Mesh) -> Buffers<'_> {
-        let positions = Cow::Borrowed(mesh.positions());
-        let indices = Cow::Borrowed(mesh.triangles().as_flattened());
+    /// What the peer works on and overwrites, where decimesh leaves its input alone. To be made outside
+    /// the timing, which is in the peer's favour.
+    pub(crate) fn hold(self, mesh: &Mesh) -> Held<'_> {
         match self {
-            Self::Simplify => Buffers { positions, indices },
-            Self::SimplifyWithUpdate => Buffers {
-                positions: Cow::Owned(positions.into_owned()),
-                indices: Cow::Owned(indices.into_owned()),
-            },
-        }
-    }
-
-    /// Simplifies to `triangles`, or to what it gets stuck at. Positions that no index names any more
-    /// stay where they are.
-    pub(crate) fn simplify(self, mut buffers: Buffers<'_>, triangles: usize) -> Buffers<'_> {
-        let target = 3 * triangles;
-        let options = SimplifyOptions::None;
-        match self {
-            Self::Simplify => {
-                let bytes = meshopt::typed_to_bytes(&buffers.positions);
-                let vertices = VertexDataAdapter::new(bytes, size_of::<[f32; 3]>(), 0)
-                    .expect("positions are whole vertices");
-                let indices =
-                    meshopt::simplify(&buffers.indices, &vertices, target, NO_ERROR_LIMIT, options, None);
-                Buffers { indices: Cow::Owned(indices), ..buffers }
-            }
-            Self::SimplifyWithUpdate => {
-                let indices = buffers.indices.to_mut();
-                let count = meshopt::simplify_with_update(
-                    indices,
-                    buffers.positions.to_mut(),
-                    &mut [],
-                    &[],
-                    0,
-                    None,
-                    target,
-                    NO_ERROR_LIMIT,
-                    options,
-                    None,
-                );
-                indices.truncate(count);
-                buffers
+            Self::Meshoptimizer(function) => Held::Meshoptimizer(function, function.buffers(mesh)),
+            Self::OpenMesh(method) => {
+                let built = openmesh_sys::Mesh::build(mesh.positions(), mesh.triangles());
+                Held::OpenMesh(method, built.unwrap_or_else(|error| panic!("{error}")))
             }
         }
     }
 }
 
-/// A mesh as meshoptimizer has it.
-#[derive(Debug, Clone)]
-pub(crate) struct Buffers<'a> {
-    pub(crate) positions: Cow<'a, [[f32; 3]]>,
-    pub(crate) indices: Cow<'a, [u32]>,
+impl<'a> Held<'a> {
+    /// Simplifies to `triangles`, or to what the peer gets stuck at.
+    pub(crate) fn simplify(self, triangles: usize) -> Self {
+        match self {
+            Self::Meshoptimizer(function, buffers) => {
+                Self::Meshoptimizer(function, function.simplify(buffers, triangles))
+            }
+            Self::OpenMesh(method, mesh) => {
+                let decimated = mesh.decimate(&Decimation::new(method, triangles));
+                Self::OpenMesh(method, decimated.unwrap_or_else(|error| panic!("{error}")))
+            }
+        }
+    }
+}
+
+impl<'a> From<Held<'a>> for Buffers<'a> {
+    fn from(held: Held<'a>) -> Self {
+        match held {
+            Held::Meshoptimizer(_, buffers) => buffers,
+            Held::OpenMesh(_, mesh) => {
+                let (positions, triangles) = mesh.buffers();
+                Self { positions: positions.into(), indices: triangles.into_flattened().into() }
+            }
+        }
+    }
 }

@@ -9,7 +9,7 @@ use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
 #[global_allocator]
 static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
 
-/// Holds the size in front of each block of meshoptimizer's; keeps the alignment of `malloc`.
+/// Holds the size in front of each block of C++'s; keeps the alignment of `malloc`.
 const HEADER: usize = 16;
 
 /// Begins to count: the bytes that are allocated from now on, less those that are freed.
@@ -27,6 +27,25 @@ pub(crate) fn count_meshoptimizer() {
     // SAFETY: nothing of meshoptimizer's is running or holds memory yet, and the two functions keep to
     // the contract of `malloc` and `free`.
     unsafe { meshopt::ffi::meshopt_setAllocator(Some(allocate), Some(deallocate)) };
+}
+
+/// C++'s `operator new(std::size_t)`, as the Itanium ABI spells it on 64 bits: in a program that has its
+/// own, OpenMesh's library and templates use it, and the forms for arrays go through it. It is how
+/// OpenMesh's memory is counted, for which it has no hook. Forms with an alignment are left alone: they
+/// come in pairs of their own.
+#[cfg(all(unix, target_pointer_width = "64"))]
+#[unsafe(export_name = "_Znwm")]
+unsafe extern "C" fn operator_new(size: usize) -> *mut c_void {
+    // SAFETY: `allocate` may be asked for any size.
+    unsafe { allocate(size) }
+}
+
+/// C++'s `operator delete(void*)`, which the forms for arrays and with a size go through.
+#[cfg(all(unix, target_pointer_width = "64"))]
+#[unsafe(export_name = "_ZdlPv")]
+unsafe extern "C" fn operator_delete(block: *mut c_void) {
+    // SAFETY: what C++ deletes, it got from `operator_new`, which is `allocate`.
+    unsafe { deallocate(block) }
 }
 
 unsafe extern "C" fn allocate(size: usize) -> *mut c_void {
@@ -49,8 +68,8 @@ unsafe extern "C" fn deallocate(block: *mut c_void) {
     if block.is_null() {
         return;
     }
-    // SAFETY: meshoptimizer gives back what `allocate` returned, once: the header lies in front of it
-    // and holds the size, and size and alignment were valid as a layout then.
+    // SAFETY: the caller gives back what `allocate` returned, once: the header lies in front of it and
+    // holds the size, and size and alignment were valid as a layout then.
     unsafe {
         let start = block.cast::<u8>().sub(HEADER);
         let bytes = start.cast::<usize>().read();

@@ -1,4 +1,5 @@
-//! decimesh beside meshoptimizer on your meshes, or on some made by rule: time, memory and error.
+//! decimesh beside meshoptimizer and OpenMesh on your meshes, or on some made by rule: time, memory and
+//! error.
 //!
 //! `cargo run --release --example bench -- scan.ply --targets 10%,20000`
 
@@ -27,7 +28,7 @@ const COMPARED: usize = 4;
 /// What the meshes are reduced to where it is the time of a triangle that is of interest.
 const SCALING_SHARE: Wish = Wish::Share(0.1);
 
-/// Measure decimesh beside meshoptimizer: time, memory and error.
+/// Measure decimesh beside meshoptimizer, and OpenMesh if asked for: time, memory and error.
 #[derive(Debug, Parser)]
 struct Arguments {
     /// Meshes to measure on; none: meshes made by rule, of 70 thousand to 4 million triangles.
@@ -42,6 +43,9 @@ struct Arguments {
     /// Numbers of threads for decimesh.
     #[arg(long, value_delimiter = ',', value_name = "N", default_value = "1,2")]
     threads: Vec<usize>,
+    /// Beside OpenMesh's decimaters too. They take five to twenty seconds a million triangles in each run.
+    #[arg(long)]
+    openmesh: bool,
     /// Instead: how the time of a triangle grows from 70 thousand to 16 million, leaving 10 %.
     #[arg(long, conflicts_with_all = ["files", "targets"])]
     scaling: bool,
@@ -93,8 +97,11 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    if arguments.openmesh && !openmesh_sys::AVAILABLE {
+        return Err(openmesh_sys::Error::Unavailable.into());
+    }
     allocation::count_meshoptimizer();
-    let contenders = Contender::all(&arguments.threads);
+    let contenders = Contender::all(&arguments.threads, arguments.openmesh);
     let setting = report::setting();
     report::print_setting(&setting);
     let records = if arguments.scaling {
@@ -111,7 +118,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 }
 
 fn comparisons(arguments: &Arguments, contenders: &[Contender]) -> Result<Vec<Value>, Box<dyn Error>> {
-    report::print_legend(arguments.runs);
+    report::print_legend(arguments.runs, arguments.openmesh);
     let mut records = Vec::new();
     let mut compare = |name: &str, mesh: &Mesh| -> Result<(), Box<dyn Error>> {
         for wish in &arguments.targets {

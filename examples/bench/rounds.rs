@@ -8,7 +8,8 @@ use decimesh::mesh::MeshError;
 use decimesh::{Mesh, Monitor, Options, Selection, Target, simplify};
 
 use crate::allocation;
-use crate::peers::{Buffers, Peer};
+use crate::peers::meshoptimizer::Function;
+use crate::peers::{Buffers, Held, MESHOPTIMIZER, OPENMESH, Peer};
 
 /// The paper's size of the replacement-selection heap.
 const RECORDS: usize = 15;
@@ -21,7 +22,7 @@ pub(crate) enum Contender {
 }
 
 /// The contender to whose time the others' are compared.
-pub(crate) const REFERENCE: Contender = Contender::Peer(Peer::SimplifyWithUpdate);
+pub(crate) const REFERENCE: Contender = Contender::Peer(Peer::Meshoptimizer(Function::SimplifyWithUpdate));
 
 /// A mesh, and how many triangles shall be left of it.
 pub(crate) struct Case<'a> {
@@ -36,18 +37,30 @@ pub(crate) struct Measurement {
     pub(crate) seconds: Vec<f64>,
     /// Allocated at once at the highest, beyond the input.
     pub(crate) peak_bytes: usize,
+    /// Triangles that the contender cannot hold, so that it simplified the others only.
+    pub(crate) left_out: usize,
     pub(crate) result: Mesh,
 }
 
+/// What one run of a contender came to.
+struct Run {
+    seconds: f64,
+    peak_bytes: usize,
+    left_out: usize,
+    result: Mesh,
+}
+
 impl Contender {
-    /// All of them; decimesh's default selection with each number of threads.
-    pub(crate) fn all(threads: &[usize]) -> Vec<Self> {
+    /// decimesh, its default selection with each number of threads; meshoptimizer; OpenMesh if asked for.
+    pub(crate) fn all(threads: &[usize], openmesh: bool) -> Vec<Self> {
         let threshold = |&threads| Self::Decimesh { selection: Selection::SampledThreshold, threads };
         let replacement = Selection::ReplacementSelection { records: RECORDS };
         let mut contenders: Vec<Self> = threads.iter().map(threshold).collect();
         contenders.push(Self::Decimesh { selection: replacement, threads: 1 });
-        contenders.push(Self::Peer(Peer::Simplify));
-        contenders.push(REFERENCE);
+        contenders.extend(MESHOPTIMIZER.map(Self::Peer));
+        if openmesh {
+            contenders.extend(OPENMESH.map(Self::Peer));
+        }
         contenders
     }
 
@@ -70,9 +83,8 @@ impl Contender {
         }
     }
 
-    /// Simplifies, and says how many seconds and bytes that took. Copies of what the contender
-    /// overwrites count as bytes, not as seconds.
-    fn run(self, case: &Case) -> Result<(f64, usize, Mesh), Box<dyn Error>> {
+    /// Simplifies. Copies of what the contender overwrites count as bytes, not as seconds.
+    fn run(self, case: &Case) -> Result<Run, Box<dyn Error>> {
         allocation::reset_peak();
         match self {
             Self::Decimesh { selection, threads } => {
@@ -81,15 +93,20 @@ impl Contender {
                 let start = Instant::now();
                 let simplified = simplify(case.mesh, &options, &mut Monitor::silent())?;
                 let seconds = start.elapsed().as_secs_f64();
-                Ok((seconds, allocation::peak_bytes(), simplified.mesh))
+                let peak_bytes = allocation::peak_bytes();
+                Ok(Run { seconds, peak_bytes, left_out: 0, result: simplified.mesh })
             }
             Self::Peer(peer) => {
-                let input = peer.input(case.mesh);
+                let held = peer.hold(case.mesh);
                 let start = Instant::now();
-                let output = peer.simplify(input, case.triangles);
+                let held = held.simplify(case.triangles);
                 let seconds = start.elapsed().as_secs_f64();
                 let peak_bytes = allocation::peak_bytes();
-                Ok((seconds, peak_bytes, compacted(&output)?))
+                let left_out = match &held {
+                    Held::Meshoptimizer(..) => 0,
+                    Held::OpenMesh(_, mesh) => mesh.left_out(),
+                };
+                Ok(Run { seconds, peak_bytes, left_out, result: compacted(&held.into())? })
             }
         }
     }
@@ -121,7 +138,7 @@ pub(crate) fn play(
     for _ in 0..runs.max(1) {
         for (case, measurements) in cases.iter().zip(&mut measurements) {
             for (place, &contender) in contenders.iter().enumerate() {
-                let (seconds, peak_bytes, result) = contender.run(case)?;
+                let Run { seconds, peak_bytes, left_out, result } = contender.run(case)?;
                 match measurements.get_mut(place) {
                     Some(measurement) => {
                         measurement.seconds.push(seconds);
@@ -129,7 +146,7 @@ pub(crate) fn play(
                     }
                     None => {
                         let seconds = vec![seconds];
-                        measurements.push(Measurement { contender, seconds, peak_bytes, result });
+                        measurements.push(Measurement { contender, seconds, peak_bytes, left_out, result });
                     }
                 }
             }
