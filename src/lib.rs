@@ -17,6 +17,7 @@
 //!
 //! | floor | room | what it is for |
 //! | --- | --- | --- |
+//! | 4 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
 //! | 2 | `deviation` | the measured distance between two surfaces (feature `deviation`) |

@@ -33,7 +33,7 @@ const FLAT: f32 = 1e-6;
 /// A plane upright on the face, the usual way, holds the border across alone, and lets it sink: in place of
 /// it the line halves the deviation of borders. From 1 to 16 it falls by another half, and that of surfaces
 /// with many holes rises by up to 10 %.
-const BORDER: f32 = 4.0;
+const BORDER: f32 = 5.0;
 
 /// A cost below this share of `trace * length²` is rounding: the planes are the same plane.
 const ROUNDING: f32 = 1e-7;

@@ -99,8 +99,9 @@ mod tests {
     use super::*;
 
     fn simplified(mesh: Mesh, topology_changed: bool) -> Simplified {
-        let (stopped_by, error, locked, origins, passes) = (StoppedBy::Target, 0.0, 0, None, 1);
-        Simplified { mesh, stopped_by, error, locked, topology_changed, origins, passes }
+        let (stopped_by, error, locked, passes) = (StoppedBy::Target, 0.0, 0, 1);
+        let (origins, sources) = (None, None);
+        Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, passes }
     }
 
     fn mesh(triangles: &[[u32; 3]]) -> Mesh {

@@ -11,7 +11,7 @@ pub(crate) mod tile;
 
 use crate::quadric::place;
 use glam::{Vec3A, Vec4};
-use ring::Ring;
+use ring::{Ring, Spoke};
 
 /// What a collapse must not do.
 #[derive(Debug, Clone, Copy)]
@@ -66,13 +66,19 @@ impl Edge<'_> {
         let from = Vec3A::from_vec4(self.source_point);
         let into = Vec3A::from_vec4(self.target_point);
         let edge = into - from;
-        let stays = self.target_locked || rules.half_edge;
-        let position =
-            if stays { into } else { from + place(&self.source.quadric, &self.target.quadric, edge).offset };
+        // A border stays where it is when a vertex beside it goes into it.
+        let target_stays = self.target_locked || rules.half_edge || self.is_onto_border();
+        let position = if target_stays {
+            into
+        } else if self.reversed().is_onto_border() {
+            from
+        } else {
+            from + place(&self.source.quadric, &self.target.quadric, edge).offset
+        };
         // What is checked is the place after rounding: far from the origin that is another one.
         let from_source = position - from;
         let mut distance_squared = fold(self.source, self.target.vertex, from_source)?;
-        if !stays {
+        if !target_stays {
             let of_target = fold(self.target, self.source.vertex, position - into)?;
             distance_squared = distance_squared.max(of_target);
         }
@@ -82,6 +88,43 @@ impl Edge<'_> {
         }
         let along = (from_source.dot(edge) / edge.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         Some(Collapse { point: position.extend(error), along })
+    }
+
+    /// Whether a vertex inside goes into one of the border.
+    fn is_onto_border(&self) -> bool {
+        self.target.boundary && !self.source.boundary
+    }
+
+    fn reversed(&self) -> Self {
+        Self {
+            source: self.target,
+            target: self.source,
+            source_point: self.target_point,
+            target_point: self.source_point,
+            target_locked: false,
+        }
+    }
+
+    /// Whether a face would come to look away from the mean of those around the new vertex, as none did
+    /// around the old ones: after several collapses, none of which turned it by much, a face can have
+    /// folded over.
+    pub(crate) fn buckles(&self, collapse: &Collapse) -> bool {
+        let position = Vec3A::from_vec4(collapse.point);
+        let ends = [
+            (self.source, self.target.vertex, position - Vec3A::from_vec4(self.source_point)),
+            (self.target, self.source.vertex, position - Vec3A::from_vec4(self.target_point)),
+        ];
+        let surviving = |(ring, other, offset): (&'_ Ring, u32, Vec3A)| {
+            let survives =
+                move |((next, previous), _): &((u32, u32), &Spoke)| *next != other && *previous != other;
+            let shapes = ring.names().zip(ring.spokes()).filter(survives);
+            shapes.map(move |(_, spoke)| (spoke.cross, spoke.moved(offset))).collect::<Vec<_>>()
+        };
+        let ends = ends.map(|end| (end.0.mean_normal(), surviving(end)));
+        let mean: Vec3A = ends.iter().flat_map(|(_, faces)| faces).map(|(_, after)| *after).sum();
+        ends.iter().any(|(mean_before, faces)| {
+            faces.iter().any(|(before, after)| after.dot(mean) < 0.0 && before.dot(*mean_before) >= 0.0)
+        })
     }
 
     /// The link condition (Dey, Edelsbrunner, Guha and Nekhayev): the links of both ends have in
@@ -155,7 +198,7 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
     for ((next, previous), spoke) in ring.names().zip(ring.spokes()) {
         let opposite = spoke.to_next - spoke.to_previous;
         let before = spoke.cross;
-        let after = before + offset.cross(opposite);
+        let after = spoke.moved(offset);
         let area_before = before.length_squared();
         let area_after = after.length_squared();
         let cosine = before.dot(after);

@@ -14,6 +14,14 @@ pub(crate) struct Spoke {
     pub(crate) cross: Vec3A,
 }
 
+impl Spoke {
+    /// [`cross`](Self::cross) after the vertex has moved by `offset`.
+    #[inline(always)]
+    pub(crate) fn moved(&self, offset: Vec3A) -> Vec3A {
+        self.cross + offset.cross(self.to_next - self.to_previous)
+    }
+}
+
 /// Names are compared this many at a time.
 const LANES: usize = 8;
 
@@ -99,6 +107,11 @@ impl Ring {
     #[inline(always)]
     pub(crate) fn spokes(&self) -> &[Spoke] {
         &self.spokes[..self.count]
+    }
+
+    /// The mean of the faces' normals, weighted by their areas, of any length.
+    pub(crate) fn mean_normal(&self) -> Vec3A {
+        self.spokes().iter().map(|spoke| spoke.cross).sum()
     }
 
     /// The corner after the vertex in each face.

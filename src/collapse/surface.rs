@@ -46,7 +46,7 @@ pub(crate) struct Snapshot {
     flags: Vec<u8>,
     attributes: Attributes,
     origins: Option<Vec<u32>>,
-    sources: Vec<u32>,
+    sources: Option<Vec<u32>>,
 }
 
 /// What is left of a mesh: see [`Surface::to_mesh`].
@@ -77,8 +77,8 @@ pub(crate) struct Surface {
     pub(crate) merged: Vec<u32>,
     /// For each vertex of the input the vertex it is in now, or [`NONE`].
     origins: Option<Vec<u32>>,
-    /// For each vertex the one of the input that it was; empty when nobody asked.
-    pub(crate) sources: Vec<u32>,
+    /// For each vertex the one of the input that it was.
+    pub(crate) sources: Option<Vec<u32>>,
     /// Ring of `v`: `incidence[offsets[v]..offsets[v + 1]]`, as `face << 2 | corner`.
     offsets: Vec<u32>,
     incidence: Vec<Face>,
@@ -122,11 +122,10 @@ impl Surface {
             },
             merged: if track.origins { (0..count as u32).collect() } else { Vec::new() },
             origins: track.origins.then(|| (0..count as u32).map(place).collect()),
-            sources: match rank {
-                _ if !track.sources => Vec::new(),
+            sources: track.sources.then(|| match rank {
                 None => (0..count as u32).collect(),
                 Some(rank) => scatter(0..count as u32, rank),
-            },
+            }),
             offsets: Vec::new(),
             incidence: Vec::new(),
             scale,
@@ -284,9 +283,7 @@ impl Surface {
             merged.extend(0..kept);
         }
         retain_alive(points, flags);
-        if !sources.is_empty() {
-            retain_alive(sources, flags);
-        }
+        sources.iter_mut().for_each(|sources| retain_alive(sources, flags));
         let Attributes { normals, colors, uvs } = attributes;
         normals.iter_mut().for_each(|normals| retain_alive(normals, flags));
         colors.iter_mut().for_each(|colors| retain_alive(colors, flags));
@@ -325,7 +322,7 @@ impl Surface {
         let mut triangles = Vec::with_capacity(alive().count());
         triangles
             .extend(alive().map(|face| face.each_ref().map(|corner| map[corner.load(Relaxed) as usize])));
-        let sources = (!self.sources.is_empty()).then(|| select(&self.sources, &used));
+        let sources = self.sources.as_ref().map(|sources| select(sources, &used));
         let (positions, attributes) = match (unmoved, &sources) {
             (Some(input), Some(sources)) => {
                 (select(input.positions(), sources), input.attributes().select(sources))

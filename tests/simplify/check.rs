@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use decimesh::mesh::verify;
-use decimesh::{Attributes, Mesh, Options, Simplified, StoppedBy, Target, Topology};
+use decimesh::{Attributes, Mesh, Options, Placement, Simplified, StoppedBy, Target, Topology};
 
 /// How far a vertex may lie outside the bounds of the input, as a share of their diagonal.
 const OVERSHOOT: f64 = 0.5;
@@ -54,6 +54,7 @@ pub(crate) fn check(input: &Mesh, options: &Options, result: &Simplified) {
     assert!(result.error >= 0.0 && result.error.is_finite(), "error {}", result.error);
     check_target(input, options.target, result);
     check_origins(input, options, result);
+    check_sources(input, options, result);
     check_locks(input, options, result);
     check_attributes(input, &result.mesh);
     check_extent(input, &result.mesh);
@@ -122,6 +123,36 @@ fn check_origins(input: &Mesh, options: &Options, result: &Simplified) {
             "{vertex} vanished"
         );
         assert!(vanished || used.contains(&(vertex as u32)), "{vertex} was not used, but went somewhere");
+    }
+}
+
+/// Each vertex was one of the input's that went into it, and where none moves still is that one, bit for bit.
+fn check_sources(input: &Mesh, options: &Options, result: &Simplified) {
+    let unmoved = options.placement == Placement::Existing;
+    assert_eq!(result.sources.is_some(), options.track_sources || unmoved);
+    let Some(sources) = &result.sources else { return };
+    assert_eq!(sources.len(), result.mesh.positions().len());
+    let distinct = sources.iter().collect::<BTreeSet<_>>().len() == sources.len();
+    assert!(distinct || result.topology_changed, "two output vertices were one of the input");
+    for (vertex, &source) in sources.iter().enumerate() {
+        let source = source as usize;
+        if let Some(origins) = &result.origins
+            && !result.topology_changed
+        {
+            assert_eq!(origins[source] as usize, vertex, "the source of {vertex} went elsewhere");
+        }
+        if unmoved {
+            let (before, after) = (input.positions()[source], result.mesh.positions()[vertex]);
+            assert_eq!(bits(before), bits(after), "{vertex} is not what {source} was");
+            let (before, after) = (input.attributes(), result.mesh.attributes());
+            let same_normal = before.normals.as_ref().map(|normals| normals[source])
+                == after.normals.as_ref().map(|normals| normals[vertex]);
+            let same_color = before.colors.as_ref().map(|colors| colors[source])
+                == after.colors.as_ref().map(|colors| colors[vertex]);
+            let same_uv =
+                before.uvs.as_ref().map(|uvs| uvs[source]) == after.uvs.as_ref().map(|uvs| uvs[vertex]);
+            assert!(same_normal && same_color && same_uv, "{vertex} has not the attributes of {source}");
+        }
     }
 }
 

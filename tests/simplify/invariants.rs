@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use decimesh::{Mesh, Monitor, Options, Selection, Target, Topology, simplify};
+use decimesh::{Mesh, Monitor, Options, Placement, Selection, Target, Topology, simplify};
 use proptest::prelude::*;
 
 use crate::check::check;
@@ -39,21 +39,25 @@ fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<Value = Case
             (1usize..40).prop_map(|records| Selection::ReplacementSelection { records })
         ];
         let topology = prop_oneof![Just(Topology::RelaxIfStuck), Just(Topology::Keep)];
+        let placement = prop_oneof![Just(Placement::Optimal), Just(Placement::Existing)];
         let locked = prop_oneof![3 => Just(0u64), 1 => 0u64..100];
-        let switches = (prop::bool::weighted(0.25), any::<bool>(), any::<bool>(), 1usize..3, any::<u64>());
-        (Just(mesh), target, selection, topology, locked, switches).prop_map(
-            |(mesh, target, selection, topology, locked, switches)| {
-                let (lock_boundary, keep_seams, track_origins, threads, seed) = switches;
+        let switches =
+            (prop::bool::weighted(0.25), any::<bool>(), any::<[bool; 2]>(), 1usize..3, any::<u64>());
+        (Just(mesh), target, selection, (topology, placement), locked, switches).prop_map(
+            |(mesh, target, selection, (topology, placement), locked, switches)| {
+                let (lock_boundary, keep_seams, [track_origins, track_sources], threads, seed) = switches;
                 let vertices = 0..mesh.positions().len() as u32;
                 let locked = vertices.filter(|&vertex| noise(seed, vertex as usize) % 100 < locked).collect();
                 let options = Options {
                     selection,
                     topology,
+                    placement,
                     lock_boundary,
                     keep_seams,
                     locked,
                     threads,
                     track_origins,
+                    track_sources,
                     ..Options::new(target)
                 };
                 Case { mesh, options }

@@ -280,7 +280,9 @@ impl<'a> Finish<'a> {
         let (a, b) = (a.min(b), a.max(b));
         let edge = self.position(b) - self.position(a);
         let (of_a, of_b) = (&self.quadrics[a as usize], &self.quadrics[b as usize]);
-        let cost = match (self.is_locked(a), self.is_locked(b)) {
+        let is_border = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
+        let stays = |vertex, other| self.is_locked(vertex) || is_border(vertex) && !is_border(other);
+        let cost = match (stays(a, b), stays(b, a)) {
             (false, false) => place(of_a, of_b, edge).cost,
             (false, true) => of_a.at(edge),
             (true, false) => of_b.at(-edge),
@@ -385,6 +387,10 @@ impl<'a> Finish<'a> {
             target_locked: self.is_locked(target),
         };
         let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
+        // What gives up the topology has folds of its own to close.
+        if !self.rules.any_topology && edge.buckles(&collapse) {
+            return Outcome::Illegal;
+        }
         let mut doomed = Vec::new();
         if self.rules.any_topology {
             match relax::coincident(source_ring, target_ring, source_corners, target_corners) {

@@ -84,9 +84,7 @@ impl Finish<'_> {
         if !surface.merged.is_empty() {
             surface.merged.push(name);
         }
-        if !surface.sources.is_empty() {
-            copy(&mut surface.sources, index);
-        }
+        surface.sources.iter_mut().for_each(|sources| copy(sources, index));
         self.first.push(NONE);
         self.degrees.push(0);
         self.quadrics.push(Quadric::default());
