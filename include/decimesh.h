@@ -950,7 +950,8 @@ decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
  *
- * Linear time; about 55 bytes of memory a triangle. Any thread; progress is told on the calling one.
+ * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. Any thread;
+ * progress is told on the calling one.
  */
 decimesh_status decimesh_simplify_indices(void *destination,
                                           const struct decimesh_buffers *buffers,
@@ -970,8 +971,8 @@ decimesh_status decimesh_simplify_indices(void *destination,
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
  *
- * Linear time; about 55 bytes of memory a triangle. No other thread may use the buffers meanwhile;
- * progress is told on the calling thread.
+ * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. No other thread may
+ * use the buffers meanwhile; progress is told on the calling thread.
  */
 decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers *buffers,
                                            const struct decimesh_simplify_options *options,

@@ -27,7 +27,8 @@ use std::ffi::c_void;
 /// *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
 /// decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
 ///
-/// Linear time; about 55 bytes of memory a triangle. Any thread; progress is told on the calling one.
+/// Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. Any thread;
+/// progress is told on the calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_simplify_indices(
     destination: *mut c_void,
@@ -62,8 +63,8 @@ pub unsafe extern "C" fn decimesh_simplify_indices(
 /// *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
 /// decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
 ///
-/// Linear time; about 55 bytes of memory a triangle. No other thread may use the buffers meanwhile;
-/// progress is told on the calling thread.
+/// Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. No other thread may
+/// use the buffers meanwhile; progress is told on the calling thread.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_simplify_in_place(
     buffers: *const decimesh_mutable_buffers,
