@@ -11,7 +11,7 @@ pub(crate) mod tile;
 
 use crate::quadric::place;
 use glam::{Vec3A, Vec4};
-use ring::{Ring, Spoke};
+use ring::Ring;
 
 /// What a collapse must not do.
 #[derive(Debug, Clone, Copy)]
@@ -67,10 +67,11 @@ impl Edge<'_> {
         let into = Vec3A::from_vec4(self.target_point);
         let edge = into - from;
         // A border stays where it is when a vertex beside it goes into it.
-        let target_stays = self.target_locked || rules.half_edge || self.is_onto_border();
+        let target_stays =
+            self.target_locked || rules.half_edge || goes_onto_border(self.source, self.target);
         let position = if target_stays {
             into
-        } else if self.reversed().is_onto_border() {
+        } else if goes_onto_border(self.target, self.source) {
             from
         } else {
             from + place(&self.source.quadric, &self.target.quadric, edge).offset
@@ -90,21 +91,6 @@ impl Edge<'_> {
         Some(Collapse { point: position.extend(error), along })
     }
 
-    /// Whether a vertex inside goes into one of the border.
-    fn is_onto_border(&self) -> bool {
-        self.target.boundary && !self.source.boundary
-    }
-
-    fn reversed(&self) -> Self {
-        Self {
-            source: self.target,
-            target: self.source,
-            source_point: self.target_point,
-            target_point: self.source_point,
-            target_locked: false,
-        }
-    }
-
     /// Whether a face would come to look away from the mean of those around the new vertex, as none did
     /// around the old ones: after several collapses, none of which turned it by much, a face can have
     /// folded over.
@@ -114,16 +100,12 @@ impl Edge<'_> {
             (self.source, self.target.vertex, position - Vec3A::from_vec4(self.source_point)),
             (self.target, self.source.vertex, position - Vec3A::from_vec4(self.target_point)),
         ];
-        let surviving = |(ring, other, offset): (&'_ Ring, u32, Vec3A)| {
-            let survives =
-                move |((next, previous), _): &((u32, u32), &Spoke)| *next != other && *previous != other;
-            let shapes = ring.names().zip(ring.spokes()).filter(survives);
-            shapes.map(move |(_, spoke)| (spoke.cross, spoke.moved(offset))).collect::<Vec<_>>()
-        };
-        let ends = ends.map(|end| (end.0.mean_normal(), surviving(end)));
-        let mean: Vec3A = ends.iter().flat_map(|(_, faces)| faces).map(|(_, after)| *after).sum();
-        ends.iter().any(|(mean_before, faces)| {
-            faces.iter().any(|(before, after)| after.dot(mean) < 0.0 && before.dot(*mean_before) >= 0.0)
+        let all = ends.iter().flat_map(|&(ring, other, offset)| ring.moved_faces(other, offset));
+        let mean: Vec3A = all.map(|(_, after)| after).sum();
+        ends.iter().any(|&(ring, other, offset)| {
+            let mean_before = ring.mean_normal();
+            let mut faces = ring.moved_faces(other, offset);
+            faces.any(|(before, after)| after.dot(mean) < 0.0 && before.dot(mean_before) >= 0.0)
         })
     }
 
@@ -182,6 +164,11 @@ impl Edge<'_> {
         let spans = |ring: &Ring| ring.names().any(|pair| pair == (a, b) || pair == (b, a));
         a == b || spans(self.source) && spans(self.target)
     }
+}
+
+/// Whether `inner` is inside and `other` on a border.
+fn goes_onto_border(inner: &Ring, other: &Ring) -> bool {
+    other.boundary && !inner.boundary
 }
 
 /// Moves the ring's vertex by `offset` and looks at each face that survives a collapse with

@@ -114,6 +114,15 @@ impl Ring {
         self.spokes().iter().map(|spoke| spoke.cross).sum()
     }
 
+    /// Each face that survives a collapse with `other`: its normal, twice its area long, before and after
+    /// the vertex has moved by `offset`.
+    pub(crate) fn moved_faces(&self, other: u32, offset: Vec3A) -> impl Iterator<Item = (Vec3A, Vec3A)> {
+        let faces = self.names().zip(self.spokes());
+        faces
+            .filter(move |((next, previous), _)| *next != other && *previous != other)
+            .map(move |(_, spoke)| (spoke.cross, spoke.moved(offset)))
+    }
+
     /// The corner after the vertex in each face.
     #[inline(always)]
     pub(crate) fn next(&self) -> &[u32] {
@@ -168,7 +177,7 @@ impl Ring {
         self.quadric = quadric;
     }
 
-    /// The largest squared distance of `offset` from the planes that hold borders.
+    /// The largest squared distance of `offset` from the planes upright on the faces along borders.
     #[cold]
     #[inline(never)]
     pub(crate) fn border_distance_squared(&self, offset: Vec3A) -> f32 {

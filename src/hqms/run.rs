@@ -54,8 +54,10 @@ impl<'a> Run<'a> {
         if options.keep_seams && *mesh.attributes() != Attributes::default() {
             locked.extend(shared_places(mesh));
         }
-        let half_edge = options.placement == Placement::Existing;
-        let track = Track { origins: options.track_origins, sources: options.track_sources || half_edge };
+        let track = Track {
+            origins: options.track_origins,
+            sources: options.track_sources || moves_no_vertex(options),
+        };
         let mut surface = Surface::new(mesh, rank.as_deref(), &locked, track, &workers);
         drop(rank);
         surface.build_rings(&workers);
@@ -88,11 +90,7 @@ impl<'a> Run<'a> {
             Target::MaxError(limit) => limit * self.surface.scale(),
             _ => f32::INFINITY,
         };
-        let rules = Rules {
-            any_topology: false,
-            error_limit,
-            half_edge: self.options.placement == Placement::Existing,
-        };
+        let rules = Rules { any_topology: false, error_limit, half_edge: moves_no_vertex(self.options) };
         let start = self.counts;
         let mut report = |counts: Counts| {
             monitor.report(share.start + (share.end - share.start) * progress(goal, start, counts))
@@ -206,7 +204,7 @@ impl<'a> Run<'a> {
 
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
-        let unmoved = (self.options.placement == Placement::Existing).then_some(self.input);
+        let unmoved = moves_no_vertex(self.options).then_some(self.input);
         let Remains { mesh, origins, sources } = self.surface.to_mesh(unmoved)?;
         let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.
@@ -214,6 +212,10 @@ impl<'a> Run<'a> {
         let Self { locked, topology_changed, passes, .. } = *self;
         Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, passes })
     }
+}
+
+fn moves_no_vertex(options: &Options) -> bool {
+    options.placement == Placement::Existing
 }
 
 /// How far `now` is from `start` to the goal.
