@@ -22,6 +22,14 @@ pub(crate) struct Rules {
     pub(crate) error_limit: f32,
     /// No vertex moves: the source goes to where the target is.
     pub(crate) half_edge: bool,
+    /// No vertex is placed beyond these corners of a box. What keeps the volume of a solid of few faces
+    /// stretches it, a little more at each collapse.
+    pub(crate) extent: [Vec3A; 2],
+}
+
+impl Rules {
+    /// A box that holds everything.
+    pub(crate) const EVERYWHERE: [Vec3A; 2] = [Vec3A::NEG_INFINITY, Vec3A::INFINITY];
 }
 
 /// The two ends of a collapse: `source` goes away, `target` stays and moves.
@@ -74,7 +82,9 @@ impl Edge<'_> {
         } else if goes_onto_border(self.target, self.source) {
             from
         } else {
-            from + place(&self.source.quadric, &self.target.quadric, edge).offset
+            let placed = from + place(&self.source.quadric, &self.target.quadric, edge).offset;
+            let [low, high] = rules.extent;
+            placed.max(low).min(high)
         };
         // What is checked is the place after rounding: far from the origin that is another one.
         let from_source = position - from;

@@ -62,7 +62,7 @@ pub enum Topology {
 /// Where the vertex of a collapsed edge goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Placement {
-    /// Where the error is least: a new vertex.
+    /// Where the error is least: a new vertex, at most a quarter of the input's diagonal outside its bounds.
     #[default]
     Optimal,
     /// To one of the edge's ends: a half-edge collapse. Every vertex of the result is then a vertex of

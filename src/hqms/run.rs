@@ -13,6 +13,7 @@ use crate::mesh::weld::shared_places;
 use crate::mesh::{Attributes, Mesh};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
+use glam::Vec3A;
 use std::ops::Range;
 
 /// The finish begins when the surface is this many times larger than the goal...
@@ -32,6 +33,9 @@ const RANKED_SHARE: f32 = 0.1;
 /// A pass that removes a smaller share of the vertices makes no progress worth another.
 const STALLED: f32 = 0.002;
 
+/// How far a vertex may be placed outside the bounds of the input, as a share of their diagonal.
+const OVERSHOOT: f32 = 0.25;
+
 /// A simplification under way.
 pub(crate) struct Run<'a> {
     options: &'a Options,
@@ -39,6 +43,8 @@ pub(crate) struct Run<'a> {
     surface: Surface,
     counts: Counts,
     workers: Workers,
+    /// Where vertices may be placed.
+    extent: [Vec3A; 2],
     threshold: Threshold,
     locked: usize,
     passes: usize,
@@ -64,12 +70,14 @@ impl<'a> Run<'a> {
         let unreferenced = surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: mesh.positions().len() - unreferenced };
         let locked = surface.flags.iter().filter(|flags| *flags & flag::LOCKED != 0).count();
+        let extent = extent(mesh, surface.scale());
         Ok(Self {
             options,
             input: mesh,
             surface,
             counts,
             workers,
+            extent,
             threshold: Threshold::new(),
             locked,
             passes: 0,
@@ -90,7 +98,12 @@ impl<'a> Run<'a> {
             Target::MaxError(limit) => limit * self.surface.scale(),
             _ => f32::INFINITY,
         };
-        let rules = Rules { any_topology: false, error_limit, half_edge: moves_no_vertex(self.options) };
+        let rules = Rules {
+            any_topology: false,
+            error_limit,
+            half_edge: moves_no_vertex(self.options),
+            extent: self.extent,
+        };
         let start = self.counts;
         let mut report = |counts: Counts| {
             monitor.report(share.start + (share.end - share.start) * progress(goal, start, counts))
@@ -212,6 +225,13 @@ impl<'a> Run<'a> {
         let Self { locked, topology_changed, passes, .. } = *self;
         Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, passes })
     }
+}
+
+/// The bounds of `mesh` with room around them, times `scale`.
+fn extent(mesh: &Mesh, scale: f32) -> [Vec3A; 2] {
+    let Some((low, high)) = mesh.bounds() else { return Rules::EVERYWHERE };
+    let room = Vec3A::splat(OVERSHOOT * mesh.diagonal() as f32);
+    [(Vec3A::from(low) - room) * scale, (Vec3A::from(high) + room) * scale]
 }
 
 fn moves_no_vertex(options: &Options) -> bool {

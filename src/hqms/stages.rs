@@ -13,7 +13,8 @@ use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
 use crate::workers::{ThreadsError, Workers};
 
-const RULES: Rules = Rules { any_topology: false, error_limit: f32::INFINITY, half_edge: false };
+const RULES: Rules =
+    Rules { any_topology: false, error_limit: f32::INFINITY, half_edge: false, extent: Rules::EVERYWHERE };
 
 /// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`], then for
 /// each pass [`Stages::build_rings`], [`Stages::classify`] (in the first pass only), one of the passes

@@ -6,7 +6,7 @@ use decimesh::mesh::verify;
 use decimesh::{Attributes, Mesh, Options, Placement, Simplified, StoppedBy, Target, Topology};
 
 /// How far a vertex may lie outside the bounds of the input, as a share of their diagonal.
-const OVERSHOOT: f64 = 0.5;
+const OVERSHOOT: f64 = 0.251;
 
 /// Whether a triangle names three vertices.
 pub(crate) fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
