@@ -19,6 +19,7 @@
 //! | --- | --- | --- |
 //! | 4 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
+//! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
 //! | 2 | `deviation` | the measured distance between two surfaces (feature `deviation`) |
 //! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files (feature `io`) |
@@ -45,6 +46,7 @@ pub mod internals {
 pub mod io;
 pub mod mesh;
 mod monitor;
+pub mod multiple_choice;
 mod quadric;
 mod workers;
 

@@ -96,7 +96,8 @@ impl Quadric {
         Vec3A::from(self.sweep)
     }
 
-    fn trace(&self) -> f32 {
+    /// The sum of the squared distances at unit length along the three axes.
+    pub(crate) fn trace(&self) -> f32 {
         self.xx + self.yy + self.zz
     }
 

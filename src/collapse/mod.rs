@@ -191,19 +191,14 @@ fn goes_onto_border(inner: &Ring, other: &Ring) -> bool {
 fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
     let mut distance_squared = 0f32;
     let mut folded = false;
-    let narrowest = LINE * LINE * offset.length_squared();
     for ((next, previous), spoke) in ring.names().zip(ring.spokes()) {
-        let opposite = spoke.to_next - spoke.to_previous;
         let before = spoke.cross;
         let after = spoke.moved(offset);
         let area_before = before.length_squared();
         let area_after = after.length_squared();
         let cosine = before.dot(after);
         let turns = (cosine <= 0.0) | (cosine * cosine < TURN * area_before * area_after);
-        // What rounding leaves of the area is a share of the sides' product, which is nothing beside
-        // the way moved unless the face is a sliver: there their dot product is the same.
-        let sides = SLIVER * spoke.to_next.dot(spoke.to_previous);
-        let narrow = area_after <= f32::max(narrowest * opposite.length_squared(), sides * sides);
+        let narrow = is_line(area_after, spoke.to_next, spoke.to_previous, offset);
         let survives = (next != other) & (previous != other);
         folded |= survives & (turns | narrow) & (area_before > 0.0);
         let height = before.dot(offset);
@@ -213,6 +208,17 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
         distance_squared = distance_squared.max(ring.border_distance_squared(offset));
     }
     (!folded).then_some(distance_squared)
+}
+
+/// Whether a face of which single precision does not know on which side it lies: twice its area, squared,
+/// is `area_squared` after its vertex, which saw the other corners at these places, has moved by `offset`.
+#[inline(always)]
+pub(crate) fn is_line(area_squared: f32, to_next: Vec3A, to_previous: Vec3A, offset: Vec3A) -> bool {
+    let narrowest = LINE * LINE * offset.length_squared();
+    // What rounding leaves of the area is a share of the sides' product, which is nothing beside the way
+    // moved unless the face is a sliver: there their dot product is the same.
+    let sides = SLIVER * to_next.dot(to_previous);
+    area_squared <= f32::max(narrowest * (to_next - to_previous).length_squared(), sides * sides)
 }
 
 #[cfg(test)]

@@ -423,7 +423,7 @@ const SAMPLES: usize = 1024;
 
 /// A power of two that makes edges about one unit long: products of four of them and more then
 /// neither overflow nor vanish in single precision, however fine or large the mesh.
-fn unit_scale(mesh: &Mesh) -> f32 {
+pub(crate) fn unit_scale(mesh: &Mesh) -> f32 {
     let position = |vertex: u32| Vec3::from(mesh.positions()[vertex as usize]).as_dvec3();
     let longest = |&[a, b, c]: &[u32; 3]| {
         let [a, b, c] = [a, b, c].map(position);

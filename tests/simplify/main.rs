@@ -8,4 +8,5 @@ mod invariants;
 mod levels;
 mod meshes;
 mod metamorphic;
+mod multiple_choice;
 mod zero_error;

@@ -1,0 +1,166 @@
+//! Half-edge collapse: what must be true of every cost and selection.
+
+use decimesh::mesh::{shapes, verify};
+use decimesh::multiple_choice::{Cost, Decimation, Selection};
+use decimesh::{Mesh, Monitor};
+use proptest::prelude::*;
+use std::ops::ControlFlow;
+
+use crate::check::is_face;
+use crate::meshes::{attributed, dirty_mesh, fan, moved, torn_mesh};
+
+const COSTS: [Cost; 3] = [Cost::Visual, Cost::Melax, Cost::Quadric];
+
+fn decimation() -> impl Strategy<Value = (Cost, Selection)> {
+    let drawn =
+        (1u32..8, any::<u64>()).prop_map(|(candidates, seed)| Selection::MultipleChoice { candidates, seed });
+    (prop::sample::select(&COSTS[..]), prop_oneof![2 => drawn, 1 => Just(Selection::LazyHeap)])
+}
+
+/// The triangles on the input's vertices, as a mesh without the vertices that none of them uses.
+fn compacted(input: &Mesh, triangles: &[[u32; 3]]) -> Mesh {
+    let mut map = vec![u32::MAX; input.positions().len()];
+    let mut positions = Vec::new();
+    let mut rename = |vertex: u32| {
+        let place = &mut map[vertex as usize];
+        if *place == u32::MAX {
+            *place = positions.len() as u32;
+            positions.push(input.positions()[vertex as usize]);
+        }
+        *place
+    };
+    let triangles = triangles.iter().map(|triangle| triangle.map(&mut rename)).collect();
+    Mesh::new(positions, triangles).unwrap()
+}
+
+/// The input's triangles after these collapses, done one after the other in the plainest way.
+fn replayed(mesh: &Mesh, decimation: &Decimation) -> Vec<[u32; 3]> {
+    let mut triangles: Vec<[u32; 3]> = mesh.triangles().to_vec();
+    triangles.retain(is_face);
+    for collapse in decimation.collapses() {
+        for corner in triangles.as_flattened_mut() {
+            if *corner == collapse.source {
+                *corner = collapse.target;
+            }
+        }
+        triangles.retain(is_face);
+    }
+    triangles
+}
+
+fn check(mesh: &Mesh, cost: Cost, selection: Selection, share: f64) {
+    let mut decimation = Decimation::new(mesh, cost, selection);
+    let before = decimation.triangles().len();
+    let wanted = (before as f64 * share) as usize;
+    let reached = decimation.reduce_to(wanted, &mut Monitor::silent()).unwrap();
+    let triangles = decimation.triangles();
+    assert_eq!(reached, triangles.len() <= wanted);
+    assert!(before <= wanted || triangles.len() + 1 >= wanted, "{} of {wanted}", triangles.len());
+    assert_eq!(triangles, replayed(mesh, &decimation));
+    if let Err(violation) = verify(mesh, &compacted(mesh, &triangles), true) {
+        panic!("{violation}");
+    }
+}
+
+fn normal(mesh: &Mesh, triangle: [u32; 3]) -> glam::DVec3 {
+    let [a, b, c] = triangle.map(|vertex| glam::Vec3::from(mesh.positions()[vertex as usize]).as_dvec3());
+    (b - a).cross(c - a)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn torn_meshes(mesh in torn_mesh(), (cost, selection) in decimation(), share in 0.0..1.0) {
+        check(&mesh, cost, selection, share);
+    }
+
+    #[test]
+    fn dirty_meshes(mesh in dirty_mesh(), (cost, selection) in decimation(), share in 0.0..1.0) {
+        check(&mesh, cost, selection, share);
+    }
+
+    /// To stop on the way changes nothing, and neither does scale.
+    #[test]
+    fn levels_are_those_of_one_run(mesh in torn_mesh(), (cost, selection) in decimation(), shift in -60i32..60) {
+        let mut once = Decimation::new(&mesh, cost, selection);
+        once.reduce_to(mesh.triangles().len() / 5, &mut Monitor::silent()).unwrap();
+        let scaled = moved(&mesh, |x| x.map(|x| x * (shift as f32).exp2()));
+        let mut twice = Decimation::new(&scaled, cost, selection);
+        twice.reduce_to(mesh.triangles().len() / 2, &mut Monitor::silent()).unwrap();
+        let finer = twice.collapses().to_vec();
+        twice.reduce_to(mesh.triangles().len() / 5, &mut Monitor::silent()).unwrap();
+        prop_assert!(twice.collapses().starts_with(&finer));
+        prop_assert_eq!(once.collapses(), twice.collapses());
+    }
+}
+
+#[test]
+fn seeds_matter_and_nothing_else_does() {
+    let mesh = shapes::bumpy_sphere(40, 1);
+    let run = |cost, seed| {
+        let mut decimation = Decimation::new(&mesh, cost, Selection::MultipleChoice { candidates: 6, seed });
+        assert!(decimation.reduce_to(500, &mut Monitor::silent()).unwrap());
+        decimation.collapses().to_vec()
+    };
+    for cost in COSTS {
+        assert_eq!(run(cost, 1), run(cost, 1));
+        assert_ne!(run(cost, 1), run(cost, 2));
+    }
+}
+
+#[test]
+fn a_plane_stays_a_plane() {
+    let plane = shapes::plane(30);
+    let area = |triangles: &[[u32; 3]]| triangles.iter().map(|&face| normal(&plane, face).z).sum::<f64>();
+    for cost in COSTS {
+        for selection in [Selection::default(), Selection::LazyHeap] {
+            let mut decimation = Decimation::new(&plane, cost, selection);
+            decimation.reduce_to(20, &mut Monitor::silent()).unwrap();
+            let triangles = decimation.triangles();
+            assert!(triangles.len() < 200, "{cost:?} {selection:?}: {}", triangles.len());
+            assert!(triangles.iter().all(|&face| normal(&plane, face).z > 0.0), "a face is folded over");
+            if selection == Selection::LazyHeap && cost != Cost::Melax {
+                let (before, after) = (area(plane.triangles()), area(&triangles));
+                assert!((before - after).abs() < 1e-6 * before, "{cost:?}: area {before} became {after}");
+            }
+        }
+    }
+}
+
+/// Vertices at one place, the sides of a seam, stay; without attributes there is no seam.
+#[test]
+fn seams_stay() {
+    let (positions, triangles, _) = shapes::plane(8).into_parts();
+    let left: Vec<u32> = (0..9).collect();
+    let doubled: Vec<[f32; 3]> =
+        positions.iter().chain(left.iter().map(|&vertex| &positions[vertex as usize])).copied().collect();
+    let bare = Mesh::new(doubled, triangles).unwrap();
+    let moves_seam = |mesh: &Mesh| {
+        let mut decimation = Decimation::new(mesh, Cost::Visual, Selection::LazyHeap);
+        decimation.reduce_to(0, &mut Monitor::silent()).unwrap();
+        assert!(!decimation.collapses().is_empty());
+        decimation.collapses().iter().any(|collapse| left.contains(&collapse.source))
+    };
+    assert!(moves_seam(&bare));
+    assert!(!moves_seam(&attributed(bare, 3)));
+}
+
+#[test]
+fn a_hub_does_not_take_quadratic_time() {
+    let hub = fan(200_000);
+    let mut decimation = Decimation::new(&hub, Cost::Visual, Selection::default());
+    decimation.reduce_to(10, &mut Monitor::silent()).unwrap();
+}
+
+#[test]
+fn one_can_go_on_after_a_cancel() {
+    let mesh = shapes::bumpy_sphere(60, 1);
+    let mut decimation = Decimation::new(&mesh, Cost::Visual, Selection::default());
+    assert!(decimation.reduce_to(500, &mut Monitor::new(|_| ControlFlow::Break(()))).is_err());
+    assert!(!decimation.collapses().is_empty() && decimation.triangles().len() > 500);
+    assert!(decimation.reduce_to(500, &mut Monitor::silent()).unwrap());
+    let mut at_once = Decimation::new(&mesh, Cost::Visual, Selection::default());
+    at_once.reduce_to(500, &mut Monitor::silent()).unwrap();
+    assert_eq!(decimation.collapses(), at_once.collapses());
+}
