@@ -25,6 +25,7 @@
 //! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files (feature `io`) |
 //! | 1 | [`mesh`] | the triangle mesh, its topology, statistics, welding, checking, and shapes to try things on |
 //! | 1 | `quadric` | sums of squared distances to planes, and their minimum |
+//! | 1 | `random` | numbers that look random and are the same everywhere |
 //!
 //! Every computation is a pure function of its input and options: no global state, no environment
 //! variable changes a result, and the number of threads changes nothing but the time.
@@ -48,6 +49,7 @@ pub mod mesh;
 mod monitor;
 pub mod multiple_choice;
 mod quadric;
+mod random;
 mod workers;
 
 pub use hqms::{

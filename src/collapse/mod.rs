@@ -27,11 +27,6 @@ pub(crate) struct Rules {
     pub(crate) extent: [Vec3A; 2],
 }
 
-impl Rules {
-    /// A box that holds everything.
-    pub(crate) const EVERYWHERE: [Vec3A; 2] = [Vec3A::NEG_INFINITY, Vec3A::INFINITY];
-}
-
 /// The two ends of a collapse: `source` goes away, `target` stays and moves.
 #[derive(Clone, Copy)]
 pub(crate) struct Edge<'a> {

@@ -5,6 +5,7 @@
 //! time as the map of [`Surface::compact`].
 
 use super::tile::Tile;
+use crate::mesh::topology::is_face;
 use crate::mesh::{Attributes, Mesh, MeshError, select};
 use crate::workers::Workers;
 use glam::{Vec3, Vec4};
@@ -467,7 +468,7 @@ fn ordered_faces(
     rank: Option<&[u32]>,
     workers: &Workers,
 ) -> Vec<Face> {
-    let whole = |&&[a, b, c]: &&[u32; 3]| a != b && b != c && c != a;
+    let whole = |triangle: &&[u32; 3]| is_face(triangle);
     let Some(rank) = rank else {
         let mut faces = Vec::with_capacity(triangles.iter().filter(whole).count());
         faces.extend(triangles.iter().filter(whole).map(|triangle| triangle.map(AtomicU32::new)));

@@ -6,32 +6,7 @@ use glam::DVec3;
 
 use super::surface::Surface;
 use super::triangle;
-
-/// SplitMix64 (Steele, Lea and Flood, 2014). Its state is a counter, so that a block of samples can
-/// start anywhere in the one stream of a seed without drawing what comes before.
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
-
-    /// The stream of `seed`, after `drawn` numbers.
-    fn at(seed: u64, drawn: u64) -> Self {
-        // Seeds are mixed once: plain ones a step apart would give one stream shifted by one.
-        Self(Self::mix(seed).wrapping_add(Self::STEP.wrapping_mul(drawn)))
-    }
-
-    fn mix(mut bits: u64) -> u64 {
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        bits ^ (bits >> 31)
-    }
-
-    /// The next number in `0.0..1.0`.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(Self::STEP);
-        (Self::mix(self.0) >> 11) as f64 * (-53f64).exp2()
-    }
-}
+use crate::random::SplitMix64;
 
 /// A point on a surface, and the normal of its triangle (of any length).
 pub(super) struct Sample {

@@ -9,8 +9,8 @@ use super::{
 };
 use crate::collapse::Rules;
 use crate::collapse::surface::{Remains, Surface, Track, flag};
-use crate::mesh::weld::shared_places;
-use crate::mesh::{Attributes, Mesh};
+use crate::mesh::Mesh;
+use crate::mesh::weld::seams;
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
 use glam::Vec3A;
@@ -57,8 +57,8 @@ impl<'a> Run<'a> {
         let rank = rank(mesh, TILE / 8);
         let workers = Workers::new(options.threads)?;
         let mut locked = options.locked.clone();
-        if options.keep_seams && *mesh.attributes() != Attributes::default() {
-            locked.extend(shared_places(mesh));
+        if options.keep_seams {
+            locked.extend(seams(mesh));
         }
         let track = Track {
             origins: options.track_origins,
@@ -70,7 +70,7 @@ impl<'a> Run<'a> {
         let unreferenced = surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: mesh.positions().len() - unreferenced };
         let locked = surface.flags.iter().filter(|flags| *flags & flag::LOCKED != 0).count();
-        let extent = extent(mesh, surface.scale());
+        let extent = extent(&surface);
         Ok(Self {
             options,
             input: mesh,
@@ -227,11 +227,15 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The bounds of `mesh` with room around them, times `scale`.
-fn extent(mesh: &Mesh, scale: f32) -> [Vec3A; 2] {
-    let Some((low, high)) = mesh.bounds() else { return Rules::EVERYWHERE };
-    let room = Vec3A::splat(OVERSHOOT * mesh.diagonal() as f32);
-    [(Vec3A::from(low) - room) * scale, (Vec3A::from(high) + room) * scale]
+/// The bounds of the living vertices, with room around them.
+fn extent(surface: &Surface) -> [Vec3A; 2] {
+    let vertices = surface.points.iter().zip(&surface.flags);
+    let alive = vertices.filter(|(_, flags)| *flags & flag::DEAD == 0);
+    let [low, high] = alive
+        .map(|(&point, _)| Vec3A::from_vec4(point))
+        .fold([Vec3A::INFINITY, Vec3A::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)]);
+    let room = Vec3A::splat(OVERSHOOT * (high - low).length());
+    [low - room, high + room]
 }
 
 fn moves_no_vertex(options: &Options) -> bool {

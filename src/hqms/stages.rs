@@ -12,9 +12,14 @@ use crate::collapse::surface::{Surface, Track};
 use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
 use crate::workers::{ThreadsError, Workers};
+use glam::Vec3A;
 
-const RULES: Rules =
-    Rules { any_topology: false, error_limit: f32::INFINITY, half_edge: false, extent: Rules::EVERYWHERE };
+const RULES: Rules = Rules {
+    any_topology: false,
+    error_limit: f32::INFINITY,
+    half_edge: false,
+    extent: [Vec3A::NEG_INFINITY, Vec3A::INFINITY],
+};
 
 /// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`], then for
 /// each pass [`Stages::build_rings`], [`Stages::classify`] (in the first pass only), one of the passes

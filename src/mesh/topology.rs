@@ -175,7 +175,7 @@ impl Components {
 }
 
 /// Whether a triangle has three different vertices.
-pub(super) fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
+pub(crate) fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
     a != b && b != c && c != a
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::topology::is_face;
-use super::{Mesh, select};
+use super::{Attributes, Mesh, select};
 
 /// Which vertices are at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -96,6 +96,12 @@ pub(crate) fn first_equal(positions: &[[f32; 3]]) -> Vec<u32> {
         }
     }
     first
+}
+
+/// The vertices at which the sides of a seam meet: those that are not alone at their place, of a mesh that
+/// has attributes; without, there is nothing that could differ there.
+pub(crate) fn seams(mesh: &Mesh) -> Vec<u32> {
+    if *mesh.attributes() == Attributes::default() { Vec::new() } else { shared_places(mesh) }
 }
 
 /// The vertices that are not alone at their place.

@@ -99,7 +99,7 @@ impl Corners {
             self.pool.copy_within(span(from), (into.start + into.count) as usize);
             into
         } else if count <= from.room {
-            // The target's come first, as in the other cases: the order shows in no result but is one.
+            // The target's come first, as in the other cases: sums are rounded in the order of a row.
             self.pool.copy_within(span(from), (from.start + into.count) as usize);
             self.pool.copy_within(span(into), from.start as usize);
             from

@@ -24,14 +24,27 @@ pub enum Cost {
 /// collapses that cost nothing, the shortest goes first.
 const DRAWN: f32 = 3e-6;
 
+/// How much two unit normals differ: 0 to 2.
+fn bend(a: Vec3A, b: Vec3A) -> f32 {
+    1.0 - a.dot(b)
+}
+
 /// Room to work in.
 #[derive(Default)]
 pub(super) struct Bends {
+    /// Of the faces, of unit length.
     normals: Vec<Vec3A>,
     /// The weighted sums of equation 2 for each face as `b`, with the others after it on the rim, and with
     /// those before.
     after: Vec<f32>,
     before: Vec<f32>,
+}
+
+impl Bends {
+    fn set_normals(&mut self, fan: &Fan) {
+        self.normals.clear();
+        self.normals.extend(fan.crosses.iter().map(|cross| cross.normalize_or_zero()));
+    }
 }
 
 impl Cost {
@@ -59,10 +72,10 @@ impl Cost {
 ///
 /// On the border, where there is one face to compare with, it counts twice, and so does the turn of the
 /// border itself.
-fn visual(fan: &Fan, Bends { normals, after, before }: &mut Bends, costs: &mut Vec<f32>) {
+fn visual(fan: &Fan, bends: &mut Bends, costs: &mut Vec<f32>) {
+    bends.set_normals(fan);
+    let Bends { normals, after, before } = bends;
     let count = fan.faces();
-    normals.clear();
-    normals.extend(fan.crosses.iter().map(|cross| cross.normalize_or_zero()));
     after.clear();
     after.resize(count, 0.0);
     before.clear();
@@ -70,9 +83,9 @@ fn visual(fan: &Fan, Bends { normals, after, before }: &mut Bends, costs: &mut V
     let weight = |steps: usize| count as f32 / (count + steps) as f32;
     for i in 0..count {
         for j in i + 1..count {
-            let bend = 1.0 - normals[i].dot(normals[j]);
-            let (near, far) =
-                (weight(j - i), if fan.closed { weight(count - (j - i)) } else { weight(j - i) });
+            let bend = bend(normals[i], normals[j]);
+            let near = weight(j - i);
+            let far = if fan.closed { weight(count - (j - i)) } else { near };
             after[i] += bend * near;
             before[j] += bend * near;
             after[j] += bend * far;
@@ -88,26 +101,26 @@ fn visual(fan: &Fan, Bends { normals, after, before }: &mut Bends, costs: &mut V
     }));
 }
 
-/// One minus the cosine between the outward normals, in the plane of their faces, of both border edges.
+/// The bend between the outward normals, in the plane of their faces, of both border edges.
 fn border_turn(fan: &Fan) -> f32 {
     let last = fan.faces() - 1;
     let first_outward = fan.spokes[0].cross(fan.crosses[0]).normalize_or_zero();
     let last_outward = fan.crosses[last].cross(fan.spokes[last + 1]).normalize_or_zero();
-    1.0 - first_outward.dot(last_outward)
+    bend(first_outward, last_outward)
 }
 
 /// Melax, *A simple, fast, and effective polygon reduction algorithm*, 1998: for each face of the vertex
 /// the nearer of the faces beside the edge, and of these the farthest.
-fn melax(fan: &Fan, Bends { normals, .. }: &mut Bends, costs: &mut Vec<f32>) {
-    normals.clear();
-    normals.extend(fan.crosses.iter().map(|cross| cross.normalize_or_zero()));
+fn melax(fan: &Fan, bends: &mut Bends, costs: &mut Vec<f32>) {
+    bends.set_normals(fan);
+    let normals = &bends.normals;
     costs.extend((0..fan.neighbours().len()).map(|place| {
         let beside = fan.beside(place);
-        let bend = normals.iter().fold(0f32, |largest, normal| {
-            let bends = beside.iter().flatten().map(|&face| 0.5 * (1.0 - normal.dot(normals[face])));
+        let largest = normals.iter().fold(0f32, |largest, &normal| {
+            let bends = beside.iter().flatten().map(|&face| 0.5 * bend(normal, normals[face]));
             largest.max(bends.fold(1.0, f32::min))
         });
-        fan.spokes[place].length() * bend
+        fan.spokes[place].length() * largest
     }));
 }
 
@@ -126,7 +139,7 @@ fn quadric(fan: &Fan, costs: &mut Vec<f32>) {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec4};
+    use glam::DVec3;
     use proptest::prelude::*;
 
     use super::super::corners::Corners;
@@ -178,7 +191,7 @@ mod tests {
             let faces: Vec<[u32; 3]> = (0..count)
                 .map(|face| [0, rim[face] as u32, rim[(face + 1) % rim.len()] as u32])
                 .collect();
-            let singles: Vec<Vec4> = points.iter().map(|point| point.as_vec3().extend(0.0)).collect();
+            let singles: Vec<Vec3A> = points.iter().map(|point| point.as_vec3a()).collect();
             let mut fan = Fan::default();
             prop_assert!(fan.gather(0, &Corners::new(points.len(), &faces), &faces, &singles));
             prop_assert_eq!(fan.closed, closed);

@@ -1,6 +1,6 @@
 //! The faces around a vertex, in the order in which they lie side by side.
 
-use glam::{Vec3A, Vec4};
+use glam::Vec3A;
 
 use super::corners::{Corners, neighbours};
 use crate::collapse::is_line;
@@ -26,7 +26,7 @@ impl Fan {
         vertex: u32,
         corners: &Corners,
         faces: &[[u32; 3]],
-        points: &[Vec4],
+        points: &[Vec3A],
     ) -> bool {
         let Some(corners) = corners.of(vertex) else { return false };
         let Self { rim, spokes, crosses, closed, pairs } = self;
@@ -53,9 +53,9 @@ impl Fan {
         if *closed && rim.first() != rim.last() {
             return false;
         }
-        let origin = Vec3A::from_vec4(points[vertex as usize]);
+        let origin = points[vertex as usize];
         spokes.clear();
-        spokes.extend(rim.iter().map(|&neighbour| Vec3A::from_vec4(points[neighbour as usize]) - origin));
+        spokes.extend(rim.iter().map(|&neighbour| points[neighbour as usize] - origin));
         crosses.clear();
         crosses.extend(spokes.windows(2).map(|pair| pair[0].cross(pair[1])));
         true

@@ -66,15 +66,9 @@ pub struct Decimation {
 }
 
 impl Decimation {
-    /// Evaluates every vertex of `mesh`. Linear in the triangles; about 100 bytes a vertex, its points and faces included.
-    ///
-    /// # Panics
-    ///
-    /// If `selection` is a [`Selection::MultipleChoice`] of no candidates.
+    /// Evaluates every vertex of `mesh`. Linear in the triangles; about 100 bytes a vertex, its points and
+    /// faces included.
     pub fn new(mesh: &Mesh, cost: Cost, selection: Selection) -> Self {
-        if let Selection::MultipleChoice { candidates, .. } = selection {
-            assert!(candidates > 0, "a multiple choice needs a candidate");
-        }
         let mut state = State::new(mesh, cost);
         let order = Order::new(selection, &mut state);
         Self { state, order, collapses: Vec::new() }

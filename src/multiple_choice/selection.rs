@@ -2,16 +2,18 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::num::NonZeroU32;
 
 use super::state::{State, flag};
+use crate::random::SplitMix64;
 
 /// How the next vertex is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Selection {
     /// The paper's (section 3.3): the cheapest of a few drawn at random.
     MultipleChoice {
-        /// How many are drawn, at least 1; the paper's is 6.
-        candidates: u32,
+        /// How many are drawn; the paper's is 6.
+        candidates: NonZeroU32,
         /// Where the generator starts: the same seed draws the same vertices on every machine.
         seed: u64,
     },
@@ -19,15 +21,17 @@ pub enum Selection {
     LazyHeap,
 }
 
+const SIX: NonZeroU32 = NonZeroU32::new(6).unwrap();
+
 impl Default for Selection {
     fn default() -> Self {
-        Self::MultipleChoice { candidates: 6, seed: 0 }
+        Self::MultipleChoice { candidates: SIX, seed: 0 }
     }
 }
 
 /// A [`Selection`] under way.
 pub(super) enum Order {
-    Drawn { vertices: Vec<u32>, candidates: u32, generator: Generator },
+    Drawn { vertices: Vec<u32>, candidates: NonZeroU32, generator: SplitMix64 },
     Heap(BinaryHeap<Reverse<(u32, u32)>>),
 }
 
@@ -44,7 +48,7 @@ impl Order {
         }
         match selection {
             Selection::MultipleChoice { candidates, seed } => {
-                Self::Drawn { vertices: able, candidates, generator: Generator(seed) }
+                Self::Drawn { vertices: able, candidates, generator: SplitMix64::at(seed, 0) }
             }
             Selection::LazyHeap => {
                 let key = |vertex: u32| Reverse((state.choices[vertex as usize].cost.to_bits(), vertex));
@@ -80,14 +84,14 @@ impl Order {
 
 fn draw(
     vertices: &mut Vec<u32>,
-    candidates: u32,
-    generator: &mut Generator,
+    candidates: NonZeroU32,
+    generator: &mut SplitMix64,
     state: &mut State,
 ) -> Option<u32> {
     loop {
         let mut best: Option<(f32, u32)> = None;
         let mut drawn = 0;
-        while drawn < candidates && !vertices.is_empty() {
+        while drawn < candidates.get() && !vertices.is_empty() {
             let index = generator.below(vertices.len());
             let vertex = vertices[index];
             if state.flags[vertex as usize] & flag::DEAD != 0 {
@@ -131,21 +135,5 @@ fn push(heap: &mut BinaryHeap<Reverse<(u32, u32)>>, vertex: u32, state: &mut Sta
         state.flags[vertex as usize] |= flag::OUT;
     } else {
         heap.push(Reverse((cost.to_bits(), vertex)));
-    }
-}
-
-/// Steele, Lea and Flood's SplitMix64: of our own, as results are promised to be the same bytes with every
-/// release, and generators in crates may change with theirs.
-pub(super) struct Generator(u64);
-
-impl Generator {
-    /// A number below `count`, which is less than 2³².
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        (((bits >> 32) * count as u64) >> 32) as usize
     }
 }

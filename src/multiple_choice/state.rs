@@ -1,13 +1,14 @@
 //! The mesh while half-edges are collapsed, and what each vertex would do next.
 
-use glam::{Vec3, Vec4};
+use glam::Vec3A;
 
 use super::corners::{Corners, is_alive, neighbours};
 use super::cost::{Bends, Cost};
 use super::fan::Fan;
 use crate::collapse::surface::unit_scale;
 use crate::mesh::Mesh;
-use crate::mesh::weld::shared_places;
+use crate::mesh::topology::is_face;
+use crate::mesh::weld::seams;
 
 /// What is known about a vertex: bits of [`State::flags`].
 pub(super) mod flag {
@@ -31,7 +32,8 @@ pub(super) struct Choice {
 const NOWHERE: Choice = Choice { cost: f32::INFINITY, target: u32::MAX };
 
 pub(super) struct State {
-    points: Vec<Vec4>,
+    /// Positions, scaled to edges of about 1.
+    points: Vec<Vec3A>,
     pub(super) faces: Vec<[u32; 3]>,
     /// Faces that live.
     pub(super) alive: usize,
@@ -51,14 +53,11 @@ impl State {
     pub(super) fn new(mesh: &Mesh, cost: Cost) -> Self {
         let scale = unit_scale(mesh);
         let vertices = mesh.positions().len();
-        let faces: Vec<[u32; 3]> =
-            mesh.triangles().iter().copied().filter(|&[a, b, c]| a != b && b != c && c != a).collect();
+        let faces: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(is_face).collect();
         let mut flags = vec![flag::DIRTY; vertices];
-        if *mesh.attributes() != crate::mesh::Attributes::default() {
-            shared_places(mesh).into_iter().for_each(|vertex| flags[vertex as usize] |= flag::LOCKED);
-        }
+        seams(mesh).into_iter().for_each(|vertex| flags[vertex as usize] |= flag::LOCKED);
         let mut state = Self {
-            points: mesh.positions().iter().map(|&point| (Vec3::from(point) * scale).extend(0.0)).collect(),
+            points: mesh.positions().iter().map(|&point| Vec3A::from(point) * scale).collect(),
             alive: faces.len(),
             corners: Corners::new(vertices, &faces),
             faces,
@@ -101,9 +100,9 @@ impl State {
         self.evaluations += 1;
         let mut costs = std::mem::take(&mut self.costs);
         self.cost.of_all(&self.fan, &mut self.bends, &mut costs);
-        let order = |place: usize, costs: &[f32], fan: &Fan| (costs[place].to_bits(), fan.rim[place]);
         loop {
-            let cheapest = (0..costs.len()).min_by_key(|&place| order(place, &costs, &self.fan));
+            let order = |&place: &usize| (costs[place].to_bits(), self.fan.rim[place]);
+            let cheapest = (0..costs.len()).min_by_key(order);
             let Some(place) = cheapest.filter(|&place| costs[place] < f32::INFINITY) else { break };
             if !self.fan.folds(place) && (!keeping_topology || self.links_allow(vertex, place)) {
                 self.choices[vertex as usize] = Choice { cost: costs[place], target: self.fan.rim[place] };
@@ -159,7 +158,6 @@ impl State {
         touched.clear();
         touched.extend(&self.around_target);
         touched.extend(self.fan.neighbours());
-        touched.push(target);
         touched.retain(|&other| other != vertex);
         touched.sort_unstable();
         touched.dedup();

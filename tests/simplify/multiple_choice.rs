@@ -4,6 +4,7 @@ use decimesh::mesh::{shapes, verify};
 use decimesh::multiple_choice::{Cost, Decimation, Selection};
 use decimesh::{Mesh, Monitor};
 use proptest::prelude::*;
+use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
 use crate::check::is_face;
@@ -12,8 +13,8 @@ use crate::meshes::{attributed, dirty_mesh, fan, moved, torn_mesh};
 const COSTS: [Cost; 3] = [Cost::Visual, Cost::Melax, Cost::Quadric];
 
 fn decimation() -> impl Strategy<Value = (Cost, Selection)> {
-    let drawn =
-        (1u32..8, any::<u64>()).prop_map(|(candidates, seed)| Selection::MultipleChoice { candidates, seed });
+    let drawn = ((1u32..8).prop_map(|count| NonZeroU32::new(count).unwrap()), any::<u64>())
+        .prop_map(|(candidates, seed)| Selection::MultipleChoice { candidates, seed });
     (prop::sample::select(&COSTS[..]), prop_oneof![2 => drawn, 1 => Just(Selection::LazyHeap)])
 }
 
@@ -99,7 +100,11 @@ proptest! {
 fn seeds_matter_and_nothing_else_does() {
     let mesh = shapes::bumpy_sphere(40, 1);
     let run = |cost, seed| {
-        let mut decimation = Decimation::new(&mesh, cost, Selection::MultipleChoice { candidates: 6, seed });
+        let mut decimation = Decimation::new(
+            &mesh,
+            cost,
+            Selection::MultipleChoice { candidates: NonZeroU32::new(6).unwrap(), seed },
+        );
         assert!(decimation.reduce_to(500, &mut Monitor::silent()).unwrap());
         decimation.collapses().to_vec()
     };
