@@ -24,9 +24,10 @@ pub enum Cost {
 /// collapses that cost nothing, the shortest goes first.
 const DRAWN: f32 = 3e-6;
 
-/// How much two unit normals differ: 0 to 2.
+/// How much two unit normals differ: 0 to 2. Rounding must not make it less: costs are compared by their
+/// bits.
 fn bend(a: Vec3A, b: Vec3A) -> f32 {
-    1.0 - a.dot(b)
+    (1.0 - a.dot(b)).max(0.0)
 }
 
 /// Room to work in.
