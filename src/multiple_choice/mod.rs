@@ -8,7 +8,7 @@
 //! What the paper leaves open is said where it is decided: the border ([`Cost`]), the link condition and
 //! vertices that have no legal collapse (left out until something around them changes). Other costs and
 //! another selection stand beside the paper's, so that they can be compared: `examples/half_edge.rs` does.
-//! The visual cost makes two to three times the error of [`simplify`](crate::simplify) with
+//! The visual cost makes 2.3 to 3.3 times the error of [`simplify`](crate::simplify) with
 //! [`Placement::Existing`](crate::Placement::Existing) on the Stanford bunny, and takes longer: a program
 //! that only wants the result should use that.
 
