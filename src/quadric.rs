@@ -35,6 +35,14 @@ const FLAT: f32 = 1e-6;
 /// with many holes rises by up to 10 %.
 const BORDER: f32 = 5.0;
 
+/// How much more a vertex costs that goes to another where the surface is bent than where it is flat: bends
+/// are what is seen. Of the maximum error this takes up to a third, of the mean it changes nothing.
+const BEND: f32 = 3.0;
+
+/// Half-edge collapses: what the shortest edge weighs among those that cost nothing, as a share of the
+/// trace. Without it a flat face is eaten up from one side, and what is left are slivers.
+const SHORTNESS: f32 = 3e-6;
+
 /// A cost below this share of `trace * length²` is rounding: the planes are the same plane.
 const ROUNDING: f32 = 1e-7;
 
@@ -81,6 +89,27 @@ impl Quadric {
         self.yy += scaled.y * edge.y + length_squared;
         self.yz += scaled.y * edge.z;
         self.zz += scaled.z * edge.z + length_squared;
+    }
+
+    /// The cost of going to another vertex and not to the best place: more where the faces are bent, less
+    /// along shorter edges.
+    #[inline(always)]
+    pub(crate) fn for_half_edge(&self) -> Self {
+        let trace = self.trace();
+        // The trace is half the sum of the lengths of the crosses whose sum is the sweep.
+        let flatness = self.sweep().length() / (2.0 * trace + f32::MIN_POSITIVE);
+        // An open ring has no sweep, and its bends are held by the border's lines.
+        let bend = if self.sweep() == Vec3A::ZERO { 0.0 } else { BEND * (1.0 - flatness).max(0.0) };
+        let (factor, shift) = (1.0 + bend, SHORTNESS * trace);
+        Self {
+            xx: factor * (self.xx + shift),
+            xy: factor * self.xy,
+            xz: factor * self.xz,
+            yy: factor * (self.yy + shift),
+            yz: factor * self.yz,
+            zz: factor * (self.zz + shift),
+            sweep: self.sweep,
+        }
     }
 
     /// The weighted sum of squared distances at `x`.

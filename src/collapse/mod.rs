@@ -39,6 +39,16 @@ pub(crate) struct Edge<'a> {
     pub(crate) target_locked: bool,
 }
 
+/// A half-edge collapse, in the names of the input's vertices: `source` went into `target`, which stayed
+/// where it was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HalfEdge {
+    /// The vertex that went.
+    pub source: u32,
+    /// The vertex it went into.
+    pub target: u32,
+}
+
 /// A legal collapse.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Collapse {
@@ -64,6 +74,9 @@ impl Edge<'_> {
     #[inline(always)]
     pub(crate) fn collapse(&self, rules: &Rules, neighbours: &mut [Vec<u32>; 2]) -> Option<Collapse> {
         if !rules.any_topology && !self.keeps_topology(neighbours) {
+            return None;
+        }
+        if rules.half_edge && !self.source.may_go_to(self.target.vertex) {
             return None;
         }
         let from = Vec3A::from_vec4(self.source_point);

@@ -75,9 +75,11 @@ impl Ring {
         fill: impl FnOnce(&mut Gathering) -> bool,
     ) -> bool {
         let padded = room.next_multiple_of(LANES);
-        if self.spokes.len() < padded {
+        if self.next.len() < padded {
             self.next.resize(padded, NONE);
             self.previous.resize(padded, NONE);
+        }
+        if self.spokes.len() < padded {
             self.spokes.resize(padded, Spoke::default());
         }
         let mut gathering = Gathering {
@@ -101,6 +103,37 @@ impl Ring {
             self.add_border_lines();
         }
         complete
+    }
+
+    /// Empties the ring for `vertex` and lets `fill` name up to `room` faces, whose shapes are not asked for:
+    /// enough for the link condition at the end of an edge that stays where it is.
+    #[inline(always)]
+    pub(crate) fn gather_names(
+        &mut self,
+        vertex: u32,
+        boundary: bool,
+        room: usize,
+        names: impl Iterator<Item = (u32, u32)>,
+    ) {
+        let padded = room.next_multiple_of(LANES);
+        if self.next.len() < padded {
+            self.next.resize(padded, NONE);
+            self.previous.resize(padded, NONE);
+        }
+        let mut count = 0usize;
+        for ((next, previous), (into_next, into_previous)) in
+            names.zip(self.next.iter_mut().zip(&mut self.previous))
+        {
+            (*into_next, *into_previous) = (next, previous);
+            count += 1;
+        }
+        for index in count..count.next_multiple_of(LANES) {
+            self.next[index] = NONE;
+            self.previous[index] = NONE;
+        }
+        self.count = count;
+        self.vertex = vertex;
+        self.boundary = boundary;
     }
 
     /// The shapes of the faces.
@@ -211,6 +244,25 @@ impl Ring {
             }
         }
         (best != u64::MAX).then(|| (f32::from_bits((best >> 32) as u32), best as u32))
+    }
+
+    /// Whether this vertex may go to `neighbour` without taking a border away from where it is: one on a
+    /// border goes along it.
+    #[inline(always)]
+    pub(crate) fn may_go_to(&self, neighbour: u32) -> bool {
+        !self.boundary || self.occurrences(neighbour) != (1, 1)
+    }
+
+    /// The neighbour to which this vertex goes most cheaply as it is, where neighbours do not move, and the
+    /// cost: see [`Quadric::for_half_edge`].
+    #[inline(always)]
+    pub(crate) fn cheapest_target(&mut self) -> Option<(f32, u32)> {
+        self.quadric = self.quadric.for_half_edge();
+        if self.boundary {
+            self.cheapest_neighbour(|neighbour| self.may_go_to(neighbour))
+        } else {
+            self.cheapest_neighbour(|_| true)
+        }
     }
 
     /// Each neighbour once, in ascending order, into `neighbours`.

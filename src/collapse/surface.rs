@@ -4,7 +4,8 @@
 //! corners and 12 of incidence: about 35 bytes a triangle of a closed mesh. Offsets serve a second
 //! time as the map of [`Surface::compact`].
 
-use super::tile::Tile;
+use super::HalfEdge;
+use super::tile::{Columns, Shared, Tile};
 use crate::mesh::topology::is_face;
 use crate::mesh::{Attributes, Mesh, MeshError, select};
 use crate::workers::Workers;
@@ -48,6 +49,7 @@ pub(crate) struct Snapshot {
     attributes: Attributes,
     origins: Option<Vec<u32>>,
     sources: Option<Vec<u32>>,
+    collapses: Option<Vec<HalfEdge>>,
 }
 
 /// What is left of a mesh: see [`Surface::to_mesh`].
@@ -64,6 +66,8 @@ pub(crate) struct Remains {
 pub(crate) struct Track {
     pub(crate) origins: bool,
     pub(crate) sources: bool,
+    /// Half-edge collapses, in the names of the input's vertices; needs the sources.
+    pub(crate) collapses: bool,
 }
 
 /// A mesh in the course of its simplification.
@@ -80,6 +84,12 @@ pub(crate) struct Surface {
     origins: Option<Vec<u32>>,
     /// For each vertex the one of the input that it was.
     pub(crate) sources: Option<Vec<u32>>,
+    /// Half-edge collapses so far, in the names of the input's vertices.
+    pub(crate) collapses: Option<Vec<HalfEdge>>,
+    /// Where vertices stay: for each vertex the next one of those that its target has absorbed in this
+    /// pass, or [`NONE`]; so a target may absorb several, as its place does not depend on them. Empty
+    /// where vertices move.
+    pub(crate) absorbed: Vec<u32>,
     /// Ring of `v`: `incidence[offsets[v]..offsets[v + 1]]`, as `face << 2 | corner`.
     offsets: Vec<u32>,
     incidence: Vec<Face>,
@@ -89,11 +99,13 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to edges of
-    /// about unit length. The vertex `v` goes to `rank[v]`, if there is a rank.
+    /// about unit length. The vertex `v` goes to `rank[v]`, if there is a rank. If vertices shall stay where
+    /// they are (`half_edge`), attributes are left in `mesh`.
     pub(crate) fn new(
         mesh: &Mesh,
         rank: Option<&[u32]>,
         locked: &[u32],
+        half_edge: bool,
         track: Track,
         workers: &Workers,
     ) -> Self {
@@ -105,7 +117,9 @@ impl Surface {
         for &vertex in locked {
             flags[place(vertex) as usize] |= flag::LOCKED;
         }
-        let attributes = mesh.attributes();
+        let none = Attributes::default();
+        let attributes = if half_edge { &none } else { mesh.attributes() };
+        let merges = track.origins && !half_edge;
         Self {
             points: match rank {
                 None => scaled.collect(),
@@ -121,12 +135,14 @@ impl Surface {
                     uvs: attributes.uvs.as_ref().map(|uv| scatter(uv.iter().copied(), rank)),
                 },
             },
-            merged: if track.origins { (0..count as u32).collect() } else { Vec::new() },
-            origins: track.origins.then(|| (0..count as u32).map(place).collect()),
+            merged: if merges { (0..count as u32).collect() } else { Vec::new() },
+            origins: merges.then(|| (0..count as u32).map(place).collect()),
             sources: track.sources.then(|| match rank {
                 None => (0..count as u32).collect(),
                 Some(rank) => scatter(0..count as u32, rank),
             }),
+            collapses: track.collapses.then(Vec::new),
+            absorbed: if half_edge { vec![NONE; count] } else { Vec::new() },
             offsets: Vec::new(),
             incidence: Vec::new(),
             scale,
@@ -245,15 +261,23 @@ impl Surface {
 
     /// The surface cut into tiles before each of the vertices `cuts`, which ascend.
     pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
-        let whole = Tile::new(
-            &mut self.points,
-            &mut self.flags,
-            &mut self.merged,
-            &mut self.attributes,
-            &self.faces,
-            &self.offsets,
-            self.incidence.as_flattened(),
-        );
+        let Attributes { normals, colors, uvs } = &mut self.attributes;
+        let columns = Columns {
+            points: &mut self.points,
+            flags: &mut self.flags,
+            merged: &mut self.merged,
+            absorbed: &mut self.absorbed,
+            normals: normals.as_deref_mut().unwrap_or_default(),
+            colors: colors.as_deref_mut().unwrap_or_default(),
+            uvs: uvs.as_deref_mut().unwrap_or_default(),
+        };
+        let shared = Shared {
+            faces: &self.faces,
+            offsets: &self.offsets,
+            incidence: self.incidence.as_flattened(),
+            sources: self.sources.as_deref().unwrap_or_default(),
+        };
+        let whole = Tile::new(columns, shared, self.collapses.is_some());
         let mut tiles = vec![whole];
         for cut in cuts {
             if let Some(last) = tiles.pop() {
@@ -263,10 +287,19 @@ impl Surface {
         tiles
     }
 
+    /// Adds to what was collapsed, if that is tracked.
+    pub(crate) fn remember(&mut self, collapses: impl IntoIterator<Item = HalfEdge>) {
+        if let Some(all) = &mut self.collapses {
+            all.extend(collapses);
+        }
+    }
+
     /// Drops dead vertices and faces, keeping the order of the others, and ends the pass: no
     /// vertex is used any more. The rings are lost.
     pub(crate) fn compact(&mut self, workers: &Workers) {
-        let Self { points, faces, flags, attributes, merged, origins, sources, offsets: map, .. } = self;
+        let Self {
+            points, faces, flags, attributes, merged, absorbed, origins, sources, offsets: map, ..
+        } = self;
         map.clear();
         map.reserve(points.len());
         let mut kept = 0;
@@ -290,6 +323,10 @@ impl Surface {
         colors.iter_mut().for_each(|colors| retain_alive(colors, flags));
         uvs.iter_mut().for_each(|uvs| retain_alive(uvs, flags));
         flags.retain(|flags| flags & flag::DEAD == 0);
+        if !absorbed.is_empty() {
+            absorbed.clear();
+            absorbed.resize(flags.len(), NONE);
+        }
         flags.iter_mut().for_each(|flags| *flags &= !flag::USED);
 
         // Blocks of faces are packed in place side by side, and then moved together.
@@ -332,7 +369,12 @@ impl Surface {
         };
         let into =
             |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
-        let origins = self.origins.as_ref().map(|origins| origins.iter().map(into).collect());
+        let origins = match (&self.origins, &self.collapses, &sources, unmoved) {
+            (None, Some(collapses), Some(sources), Some(input)) => {
+                Some(origins(collapses, sources, input.positions().len()))
+            }
+            (tracked, ..) => tracked.as_ref().map(|origins| origins.iter().map(into).collect()),
+        };
         Ok(Remains { mesh: Mesh::with_attributes(positions, triangles, attributes)?, origins, sources })
     }
 
@@ -357,6 +399,7 @@ impl Surface {
             attributes: self.attributes.clone(),
             origins: self.origins.clone(),
             sources: self.sources.clone(),
+            collapses: self.collapses.clone(),
         }
     }
 
@@ -371,6 +414,7 @@ impl Surface {
         self.attributes = snapshot.attributes;
         self.origins = snapshot.origins;
         self.sources = snapshot.sources;
+        self.collapses = snapshot.collapses;
     }
 
     /// Gives the rings' memory back.
@@ -408,6 +452,22 @@ pub(crate) fn neighbours(faces: &[Face], corner: u32) -> (u32, u32) {
     let face = &faces[(corner >> 2) as usize];
     let corner = (corner & 3) as usize;
     (face[NEXT[corner]].load(Relaxed), face[PREVIOUS[corner]].load(Relaxed))
+}
+
+/// For each of the input's `vertices` the last one of `sources` that it went into, or [`NONE`].
+fn origins(collapses: &[HalfEdge], sources: &[u32], vertices: usize) -> Vec<u32> {
+    let mut origins = vec![NONE; vertices];
+    for (&source, vertex) in sources.iter().zip(0..) {
+        origins[source as usize] = vertex;
+    }
+    // Backwards, where a target goes is known when its source is come to. A vertex at which the surface was
+    // parted has several lives, of which the last counts.
+    for &HalfEdge { source, target } in collapses.iter().rev() {
+        if origins[source as usize] == NONE {
+            origins[source as usize] = origins[target as usize];
+        }
+    }
+    origins
 }
 
 /// The end of the chain of collapses that starts at `origin`, unless it vanished.

@@ -6,9 +6,8 @@
 //! tiles can work side by side without locks, and what each does depends on nothing the others do.
 
 use super::ring::Ring;
-use super::surface::{Face, flag, is_alive, neighbours};
-use super::{Collapse, Edge, Rules};
-use crate::mesh::Attributes;
+use super::surface::{Face, NONE, flag, is_alive, neighbours};
+use super::{Collapse, Edge, HalfEdge, Rules};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -16,18 +15,38 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// link condition is quadratic.
 const MAX_DEGREE: usize = 64;
 
+/// The most faces two vertices may have whose target has absorbed another in this pass: it would gather a
+/// ring that no later collapse can afford to look at.
+const MAX_ABSORBED: usize = 28;
+
 /// A run of vertices, with the faces of the whole surface. See the [module](self).
 pub(crate) struct Tile<'a> {
     first: u32,
-    points: &'a mut [Vec4],
-    flags: &'a mut [u8],
-    merged: &'a mut [u32],
-    normals: &'a mut [[f32; 3]],
-    colors: &'a mut [[u8; 4]],
-    uvs: &'a mut [[f32; 2]],
-    faces: &'a [Face],
-    offsets: &'a [u32],
-    incidence: &'a [AtomicU32],
+    columns: Columns<'a>,
+    shared: Shared<'a>,
+    /// What was collapsed, in the names of the input's vertices, where that is tracked.
+    collapses: Option<Vec<HalfEdge>>,
+}
+
+/// What a tile alone may look at and change: an element a vertex, or none where it is not carried.
+pub(crate) struct Columns<'a> {
+    pub(crate) points: &'a mut [Vec4],
+    pub(crate) flags: &'a mut [u8],
+    pub(crate) merged: &'a mut [u32],
+    pub(crate) absorbed: &'a mut [u32],
+    pub(crate) normals: &'a mut [[f32; 3]],
+    pub(crate) colors: &'a mut [[u8; 4]],
+    pub(crate) uvs: &'a mut [[f32; 2]],
+}
+
+/// What all tiles look at.
+#[derive(Clone, Copy)]
+pub(crate) struct Shared<'a> {
+    pub(crate) faces: &'a [Face],
+    pub(crate) offsets: &'a [u32],
+    pub(crate) incidence: &'a [AtomicU32],
+    /// The vertex of the input that each is.
+    pub(crate) sources: &'a [u32],
 }
 
 /// Room to work in, one a thread.
@@ -38,99 +57,87 @@ pub(crate) struct Scratch {
     neighbours: [Vec<u32>; 2],
 }
 
-impl<'a> Tile<'a> {
-    /// A tile of all vertices.
-    pub(crate) fn new(
-        points: &'a mut [Vec4],
-        flags: &'a mut [u8],
-        merged: &'a mut [u32],
-        attributes: &'a mut Attributes,
-        faces: &'a [Face],
-        offsets: &'a [u32],
-        incidence: &'a [AtomicU32],
-    ) -> Self {
-        Self {
-            first: 0,
-            points,
-            flags,
-            merged,
-            normals: attributes.normals.as_deref_mut().unwrap_or_default(),
-            colors: attributes.colors.as_deref_mut().unwrap_or_default(),
-            uvs: attributes.uvs.as_deref_mut().unwrap_or_default(),
-            faces,
-            offsets,
-            incidence,
+impl<'a> Columns<'a> {
+    /// The first `count` vertices, and the others.
+    fn split(self, count: usize) -> [Self; 2] {
+        fn cut<T>(column: &mut [T], count: usize) -> (&mut [T], &mut [T]) {
+            column.split_at_mut(count.min(column.len()))
         }
+        let (points, points_after) = cut(self.points, count);
+        let (flags, flags_after) = cut(self.flags, count);
+        let (merged, merged_after) = cut(self.merged, count);
+        let (absorbed, absorbed_after) = cut(self.absorbed, count);
+        let (normals, normals_after) = cut(self.normals, count);
+        let (colors, colors_after) = cut(self.colors, count);
+        let (uvs, uvs_after) = cut(self.uvs, count);
+        [
+            Self { points, flags, merged, absorbed, normals, colors, uvs },
+            Self {
+                points: points_after,
+                flags: flags_after,
+                merged: merged_after,
+                absorbed: absorbed_after,
+                normals: normals_after,
+                colors: colors_after,
+                uvs: uvs_after,
+            },
+        ]
+    }
+}
+
+impl<'a> Tile<'a> {
+    /// A tile of all vertices, that remembers its collapses if they are `tracked`.
+    pub(crate) fn new(columns: Columns<'a>, shared: Shared<'a>, tracked: bool) -> Self {
+        Self { first: 0, columns, shared, collapses: tracked.then(Vec::new) }
     }
 
     /// Two tiles, the second from vertex `cut` on.
     pub(crate) fn split(self, cut: usize) -> [Self; 2] {
-        let middle = cut - self.first as usize;
-        let (points, points_after) = self.points.split_at_mut(middle);
-        let (flags, flags_after) = self.flags.split_at_mut(middle);
-        // What is not carried is empty on both sides.
-        let (merged, merged_after) = self.merged.split_at_mut(middle.min(self.merged.len()));
-        let (normals, normals_after) = self.normals.split_at_mut(middle.min(self.normals.len()));
-        let (colors, colors_after) = self.colors.split_at_mut(middle.min(self.colors.len()));
-        let (uvs, uvs_after) = self.uvs.split_at_mut(middle.min(self.uvs.len()));
-        let (faces, offsets, incidence) = (self.faces, self.offsets, self.incidence);
-        let first = cut as u32;
+        let Self { first, shared, collapses, .. } = self;
+        let [columns, after] = self.columns.split(cut - first as usize);
         [
-            Self {
-                first: self.first,
-                points,
-                flags,
-                merged,
-                normals,
-                colors,
-                uvs,
-                faces,
-                offsets,
-                incidence,
-            },
-            Self {
-                first,
-                points: points_after,
-                flags: flags_after,
-                merged: merged_after,
-                normals: normals_after,
-                colors: colors_after,
-                uvs: uvs_after,
-                faces,
-                offsets,
-                incidence,
-            },
+            Self { first, columns, shared, collapses: collapses.clone() },
+            Self { first: cut as u32, columns: after, shared, collapses },
         ]
+    }
+
+    /// What was collapsed, if that was tracked.
+    pub(crate) fn into_collapses(self) -> Vec<HalfEdge> {
+        self.collapses.unwrap_or_default()
     }
 
     /// The tile's vertices.
     pub(crate) fn vertices(&self) -> std::ops::Range<u32> {
-        self.first..self.first + self.points.len() as u32
+        self.first..self.first + self.columns.points.len() as u32
     }
 
     pub(crate) fn flags(&self, vertex: u32) -> u8 {
-        self.flags[(vertex - self.first) as usize]
+        self.columns.flags[(vertex - self.first) as usize]
     }
 
     /// Whether `vertex` lies in the tile and has not been part of a collapse.
     #[inline(always)]
     pub(crate) fn is_unused(&self, vertex: u32) -> bool {
-        let flags = self.flags.get(vertex.wrapping_sub(self.first) as usize);
+        let flags = self.columns.flags.get(vertex.wrapping_sub(self.first) as usize);
         flags.is_some_and(|flags| flags & (flag::USED | flag::DEAD) == 0)
     }
 
     pub(crate) fn unblock(&mut self, vertex: u32) {
-        self.flags[(vertex - self.first) as usize] &= !flag::BLOCKED;
+        self.columns.flags[(vertex - self.first) as usize] &= !flag::BLOCKED;
     }
 
     #[inline(always)]
     fn position(&self, vertex: u32) -> Option<Vec3A> {
-        self.points.get(vertex.wrapping_sub(self.first) as usize).map(|&point| Vec3A::from_vec4(point))
+        self.columns
+            .points
+            .get(vertex.wrapping_sub(self.first) as usize)
+            .map(|&point| Vec3A::from_vec4(point))
     }
 
     #[inline(always)]
     fn corners(&self, vertex: u32) -> &'a [AtomicU32] {
-        &self.incidence[self.offsets[vertex as usize] as usize..self.offsets[vertex as usize + 1] as usize]
+        let Shared { offsets, incidence, .. } = self.shared;
+        &incidence[offsets[vertex as usize] as usize..offsets[vertex as usize + 1] as usize]
     }
 
     /// How many faces the ring of `vertex` had when the pass began.
@@ -149,10 +156,10 @@ impl<'a> Tile<'a> {
         ring.gather(vertex, boundary, corners.len(), |ring| {
             for corner in corners {
                 let corner = corner.load(Relaxed);
-                if !is_alive(&self.faces[(corner >> 2) as usize]) {
+                if !is_alive(&self.shared.faces[(corner >> 2) as usize]) {
                     continue;
                 }
-                let (next, previous) = neighbours(self.faces, corner);
+                let (next, previous) = neighbours(self.shared.faces, corner);
                 let (Some(to_next), Some(to_previous)) = (self.position(next), self.position(previous))
                 else {
                     return false;
@@ -163,6 +170,32 @@ impl<'a> Tile<'a> {
         })
     }
 
+    /// `vertex` and those it has absorbed in this pass.
+    fn with_absorbed(&self, vertex: u32) -> impl Iterator<Item = u32> + Clone {
+        std::iter::successors(Some(vertex), |&vertex| {
+            let next = self.columns.absorbed[(vertex - self.first) as usize];
+            (next != NONE).then_some(next)
+        })
+    }
+
+    /// Gathers the names of the ring of a `vertex` that stays where it is, and may have absorbed others;
+    /// the ring may leave the tile. `false` if there are too many beside the `joining` ones.
+    #[inline(always)]
+    fn gather_names(&self, vertex: u32, joining: usize, ring: &mut Ring) -> bool {
+        let absorbed = self.columns.absorbed[(vertex - self.first) as usize] != NONE;
+        let room = self.with_absorbed(vertex).map(|vertex| self.degree(vertex)).sum();
+        if room > if absorbed { 2 * MAX_DEGREE } else { MAX_DEGREE } {
+            return false;
+        }
+        let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
+        let corners = self.with_absorbed(vertex).flat_map(|vertex| self.corners(vertex));
+        let alive = corners
+            .map(|corner| corner.load(Relaxed))
+            .filter(|corner| is_alive(&self.shared.faces[(corner >> 2) as usize]));
+        ring.gather_names(vertex, boundary, room, alive.map(|corner| neighbours(self.shared.faces, corner)));
+        !absorbed || ring.next().len() + joining <= MAX_ABSORBED
+    }
+
     /// Collapses `scratch.source`, which has been gathered and is unused, into `target`, if the
     /// rules allow it: the number of faces that this removed. Where they do not, the source is
     /// blocked.
@@ -170,33 +203,39 @@ impl<'a> Tile<'a> {
     pub(crate) fn collapse(&mut self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<usize> {
         let source = scratch.source.vertex;
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
-        if self.flags[into] & flag::USED != 0 || !self.gather(target, &mut scratch.target) {
+        let gathered = if rules.half_edge {
+            self.gather_names(target, scratch.source.next().len(), &mut scratch.target)
+        } else {
+            self.columns.flags[into] & flag::USED == 0 && self.gather(target, &mut scratch.target)
+        };
+        if !gathered {
             return None;
         }
         let edge = Edge {
             source: &scratch.source,
             target: &scratch.target,
-            source_point: self.points[from],
-            target_point: self.points[into],
-            target_locked: self.flags[into] & flag::LOCKED != 0,
+            source_point: self.columns.points[from],
+            target_point: self.columns.points[into],
+            target_locked: self.columns.flags[into] & flag::LOCKED != 0,
         };
         let collapse = edge.collapse(rules, &mut scratch.neighbours);
         if collapse.is_none() {
-            self.flags[from] |= flag::BLOCKED;
+            self.columns.flags[from] |= flag::BLOCKED;
         }
         collapse.map(|collapse| self.execute(source, target, &collapse))
     }
 
     fn execute(&mut self, source: u32, target: u32, collapse: &Collapse) -> usize {
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
+        let faces = self.shared.faces;
         let mut removed = 0;
         for corner in self.corners(source) {
             let corner = corner.load(Relaxed);
-            let face = &self.faces[(corner >> 2) as usize];
+            let face = &faces[(corner >> 2) as usize];
             if !is_alive(face) {
                 continue;
             }
-            let (next, previous) = neighbours(self.faces, corner);
+            let (next, previous) = neighbours(faces, corner);
             if next == target || previous == target {
                 face[1].store(face[0].load(Relaxed), Relaxed);
                 removed += 1;
@@ -204,13 +243,21 @@ impl<'a> Tile<'a> {
                 face[(corner & 3) as usize].store(target, Relaxed);
             }
         }
-        self.points[into] = collapse.point;
-        self.flags[into] |= self.flags[from] & flag::BOUNDARY | flag::USED;
-        self.flags[from] |= flag::DEAD;
-        if let Some(merged) = self.merged.get_mut(from) {
+        let columns = &mut self.columns;
+        columns.points[into] = collapse.point;
+        columns.flags[into] |= columns.flags[from] & flag::BOUNDARY | flag::USED;
+        columns.flags[from] |= flag::DEAD;
+        if let Some(merged) = columns.merged.get_mut(from) {
             *merged = target;
         }
-        blend_attributes(self.normals, self.colors, self.uvs, [from, into], collapse.along);
+        if !columns.absorbed.is_empty() {
+            columns.absorbed[from] = std::mem::replace(&mut columns.absorbed[into], source);
+        }
+        if let Some(collapses) = &mut self.collapses {
+            let sources = self.shared.sources;
+            collapses.push(HalfEdge { source: sources[source as usize], target: sources[target as usize] });
+        }
+        blend_attributes(columns.normals, columns.colors, columns.uvs, [from, into], collapse.along);
         removed
     }
 }

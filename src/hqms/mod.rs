@@ -18,6 +18,7 @@ mod run;
 #[cfg(feature = "bench-internals")]
 pub(crate) mod stages;
 
+pub use crate::collapse::HalfEdge;
 use crate::mesh::{Mesh, MeshError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::ThreadsError;
@@ -97,6 +98,8 @@ pub struct Options {
     pub track_origins: bool,
     /// Fill [`Simplified::sources`], whatever the placement.
     pub track_sources: bool,
+    /// Fill [`Simplified::collapses`]: for [`Placement::Existing`] only.
+    pub track_collapses: bool,
 }
 
 impl Options {
@@ -113,6 +116,7 @@ impl Options {
             threads: 0,
             track_origins: false,
             track_sources: false,
+            track_collapses: false,
         }
     }
 }
@@ -147,6 +151,12 @@ pub struct Simplified {
     /// For each output vertex the input vertex that it was before others went into it. A vertex at which
     /// the surface was parted (see [`Topology::RelaxIfStuck`]) has several output vertices.
     pub sources: Option<Vec<u32>>,
+    /// What was collapsed, in an order in which it can be done again: at each, all corners of triangles that
+    /// are the source become the target, and the triangles vanish that then have two corners at one place.
+    /// From the input's triangles, those with two corners at one place left out, this leads to the
+    /// result's. A collapse along a seam is several of these in a row, whose sources are at one place. None
+    /// where the topology had to be given up.
+    pub collapses: Option<Vec<HalfEdge>>,
     /// Passes over the mesh.
     pub passes: usize,
 }
@@ -204,18 +214,4 @@ pub fn build_levels(
         levels.push(run.result(stopped_by)?);
     }
     Ok(levels)
-}
-
-/// Which level of a chain to draw: the coarsest whose error is at most `max_error`; `None` if none is so
-/// good. `errors` are those of the levels ([`Simplified::error`]), from fine to coarse, all in units of the
-/// positions.
-///
-/// Seen by a perspective camera from `distance`, with a vertical field of view of `fov` radians on a
-/// screen of `height` pixels, an error of `pixels` on the screen is one of
-/// `pixels * distance * 2 * tan(fov / 2) / height`.
-pub fn coarsest_within(
-    mut errors: impl DoubleEndedIterator<Item = f32> + ExactSizeIterator,
-    max_error: f32,
-) -> Option<usize> {
-    errors.rposition(|error| error <= max_error)
 }

@@ -75,7 +75,7 @@ impl Threshold {
         let far = goal.ratio(counts).is_some_and(|ratio| ratio > FAR);
         let share = if far { SHARE_FAR } else { SHARE_NEAR };
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
-        let samples = sample(surface, wanted < SMALL, workers);
+        let samples = sample(surface, wanted < SMALL, rules, workers);
         let usable =
             samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
         let quantile = f32::min(share * usable, AIM * wanted / self.yielded.max(0.5));
@@ -87,13 +87,21 @@ impl Threshold {
         let budgets = budgets(&tiles, &samples, threshold, goal, goal.excess(counts));
 
         let mut removed = Counts::default();
+        let mut collapses = Vec::new();
         let mut work: Vec<(Tile, usize)> = tiles.into_iter().zip(budgets).collect();
         while !work.is_empty() {
             let batch = work.drain(..BATCH.min(work.len())).collect();
-            let sweep = |(mut tile, budget): (Tile, usize)| sweep(&mut tile, threshold, goal, budget, rules);
-            workers.map(batch, sweep).into_iter().for_each(|of_tile| removed.add(of_tile));
+            let sweep = |(mut tile, budget): (Tile, usize)| {
+                let removed = sweep(&mut tile, threshold, goal, budget, rules);
+                (removed, tile.into_collapses())
+            };
+            for (of_tile, more) in workers.map(batch, sweep) {
+                removed.add(of_tile);
+                collapses.extend(more);
+            }
             report(removed)?;
         }
+        surface.remember(collapses);
         let share = removed.vertices as f32 / vertices as f32;
         self.yielded = (share / quantile).clamp(0.05, 0.7);
         self.slow = share < SLOW;
@@ -115,7 +123,7 @@ impl Threshold {
 /// Vertices strided over the surface, many or some, with their costs. Those that cannot collapse,
 /// or could not in the last pass, are [`UNUSABLE`]: they would pull the threshold down to what is
 /// never executed.
-fn sample(surface: &mut Surface, many: bool, workers: &Workers) -> Vec<(u32, u32)> {
+fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -> Vec<(u32, u32)> {
     let vertices = surface.points.len();
     let count = vertices.min(if many { MANY_SAMPLES } else { SAMPLES });
     let tile = &surface.whole();
@@ -125,7 +133,8 @@ fn sample(surface: &mut Surface, many: bool, workers: &Workers) -> Vec<(u32, u32
         block
             .map(|index| {
                 let vertex = (index * vertices / count) as u32;
-                (vertex, cost(tile, vertex, flag::BLOCKED, &mut scratch).map_or(UNUSABLE, |(cost, _)| cost))
+                let cost = cost(tile, vertex, flag::BLOCKED, rules, &mut scratch);
+                (vertex, cost.map_or(UNUSABLE, |(cost, _)| cost))
             })
             .collect::<Vec<_>>()
     });
@@ -142,13 +151,18 @@ fn threshold(samples: &[(u32, u32)], quantile: f32) -> u32 {
 
 /// The bits of the cheapest cost of a vertex that may be a source, and the neighbour it is at.
 #[inline(always)]
-fn cost(tile: &Tile, vertex: u32, unusable: u8, scratch: &mut Scratch) -> Option<(u32, u32)> {
+fn cost(tile: &Tile, vertex: u32, unusable: u8, rules: &Rules, scratch: &mut Scratch) -> Option<(u32, u32)> {
     if tile.flags(vertex) & (flag::USED | flag::DEAD | flag::LOCKED | unusable) != 0
         || !tile.gather(vertex, &mut scratch.source)
     {
         return None;
     }
-    scratch.source.cheapest_neighbour(|_| true).map(|(cost, neighbour)| (cost.to_bits(), neighbour))
+    let cheapest = if rules.half_edge {
+        scratch.source.cheapest_target()
+    } else {
+        scratch.source.cheapest_neighbour(|_| true)
+    };
+    cheapest.map(|(cost, neighbour)| (cost.to_bits(), neighbour))
 }
 
 /// Shares the excess among the tiles as the samples below the threshold are, so that no thread
@@ -182,12 +196,12 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
         if goal.measure(removed) + goal.step() > budget {
             break;
         }
-        let Some((cost, neighbour)) = cost(tile, vertex, 0, &mut scratch) else { continue };
+        let Some((cost, neighbour)) = cost(tile, vertex, 0, rules, &mut scratch) else { continue };
         tile.unblock(vertex);
         if cost >= threshold {
             continue;
         }
-        let target = if tile.is_unused(neighbour) {
+        let target = if rules.half_edge || tile.is_unused(neighbour) {
             Some(neighbour)
         } else {
             let second = scratch.source.cheapest_neighbour(|neighbour| tile.is_unused(neighbour));
@@ -219,7 +233,7 @@ pub(crate) fn ranked_pass(
         let of_blocks = workers.map(blocks, |first| {
             let mut scratch = Scratch::default();
             let block = first..(first + TILE as u32).min(tile.vertices().end);
-            let cost = |vertex| cost(tile, vertex, 0, &mut scratch).map(|(cost, _)| (cost, vertex));
+            let cost = |vertex| cost(tile, vertex, 0, rules, &mut scratch).map(|(cost, _)| (cost, vertex));
             block.filter_map(cost).collect::<Vec<_>>()
         });
         of_blocks.into_iter().for_each(|block| candidates.extend(block));
@@ -238,11 +252,13 @@ pub(crate) fn ranked_pass(
         if goal.measure(removed) >= goal.excess(counts) {
             break;
         }
-        if let Some((_, neighbour)) = cost(&tile, vertex, 0, &mut scratch)
+        if let Some((_, neighbour)) = cost(&tile, vertex, 0, rules, &mut scratch)
             && let Some(faces) = tile.collapse(neighbour, rules, &mut scratch)
         {
             removed.add(Counts { faces, vertices: 1 });
         }
     }
+    let collapses = tile.into_collapses();
+    surface.remember(collapses);
     removed
 }

@@ -46,7 +46,7 @@ pub(crate) fn pass(
         if vertex % BATCH == 0 {
             report(removed)?;
         }
-        let Some(record) = contraction(&tile, vertex, &mut scratch) else { continue };
+        let Some(record) = contraction(&tile, vertex, rules, &mut scratch) else { continue };
         heap.push(record);
         if heap.len() > records
             && let Some(record) = heap.pop()
@@ -54,7 +54,7 @@ pub(crate) fn pass(
             execute(&mut tile, record, rules, &mut scratch, &mut removed);
         }
         if goal.measure(removed) >= excess {
-            return Ok(removed);
+            break;
         }
     }
     while goal.measure(removed) < excess
@@ -62,6 +62,8 @@ pub(crate) fn pass(
     {
         execute(&mut tile, record, rules, &mut scratch, &mut removed);
     }
+    let collapses = tile.into_collapses();
+    surface.remember(collapses);
     Ok(removed)
 }
 
@@ -71,7 +73,7 @@ fn is_unmodified(tile: &Tile, vertex: u32) -> bool {
 }
 
 /// The optimal contraction of a ring: section 3.3, steps 1 to 3.
-fn contraction(tile: &Tile, vertex: u32, scratch: &mut Scratch) -> Option<Record> {
+fn contraction(tile: &Tile, vertex: u32, rules: &Rules, scratch: &mut Scratch) -> Option<Record> {
     if !is_unmodified(tile, vertex)
         || tile.flags(vertex) & flag::LOCKED != 0
         || !tile.gather(vertex, &mut scratch.source)
@@ -80,7 +82,11 @@ fn contraction(tile: &Tile, vertex: u32, scratch: &mut Scratch) -> Option<Record
     }
     // Two rings share the faces of the edge, mostly two.
     let joined = |neighbour| tile.degree(vertex) + tile.degree(neighbour) - 2;
-    let eligible = |neighbour| is_unmodified(tile, neighbour) && joined(neighbour) < MAXDEG;
+    let eligible = |neighbour| {
+        is_unmodified(tile, neighbour)
+            && joined(neighbour) < MAXDEG
+            && (!rules.half_edge || scratch.source.may_go_to(neighbour))
+    };
     let (cost, neighbour) = scratch.source.cheapest_neighbour(eligible)?;
     Some(Reverse((cost.to_bits(), vertex, neighbour)))
 }

@@ -60,11 +60,13 @@ impl<'a> Run<'a> {
         if options.keep_seams {
             locked.extend(seams(mesh));
         }
+        let half_edge = moves_no_vertex(options);
         let track = Track {
             origins: options.track_origins,
-            sources: options.track_sources || moves_no_vertex(options),
+            sources: options.track_sources || half_edge,
+            collapses: options.track_collapses || options.track_origins && half_edge,
         };
-        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, track, &workers);
+        let mut surface = Surface::new(mesh, rank.as_deref(), &locked, half_edge, track, &workers);
         drop(rank);
         surface.build_rings(&workers);
         let unreferenced = surface.classify(options.lock_boundary, &workers);
@@ -223,7 +225,19 @@ impl<'a> Run<'a> {
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.
         let error = (largest / self.surface.scale()).min(f32::MAX);
         let Self { locked, topology_changed, passes, .. } = *self;
-        Ok(Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, passes })
+        let tracked = self.options.track_collapses && !topology_changed;
+        let collapses = self.surface.collapses.as_ref().filter(|_| tracked).cloned();
+        Ok(Simplified {
+            mesh,
+            stopped_by,
+            error,
+            locked,
+            topology_changed,
+            origins,
+            sources,
+            collapses,
+            passes,
+        })
     }
 }
 
@@ -253,6 +267,10 @@ fn check(mesh: &Mesh, options: &Options) -> Result<(), SimplifyError> {
     if let Some(vertex) = options.locked.iter().find(|&&vertex| vertex as usize >= vertices) {
         let message = format!("locked vertex {vertex} does not exist: there are {vertices} vertices");
         return Err(SimplifyError::InvalidOption(message));
+    }
+    if options.track_collapses && !moves_no_vertex(options) {
+        let message = "collapses can be tracked where vertices stay (Placement::Existing) only";
+        return Err(SimplifyError::InvalidOption(message.into()));
     }
     if options.selection == (Selection::ReplacementSelection { records: 0 }) {
         return Err(SimplifyError::InvalidOption("a replacement-selection heap needs a record".into()));

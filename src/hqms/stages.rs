@@ -37,7 +37,7 @@ impl Stages {
     pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Result<Self, ThreadsError> {
         let rank = rank(mesh, TILE / 8);
         let workers = Workers::new(threads)?;
-        let surface = Surface::new(mesh, rank.as_deref(), &[], Track::default(), &workers);
+        let surface = Surface::new(mesh, rank.as_deref(), &[], false, Track::default(), &workers);
         Ok(Self {
             counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,

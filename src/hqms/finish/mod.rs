@@ -16,7 +16,7 @@ use crate::collapse::queue::Queue;
 use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, is_alive, is_open, neighbours};
 use crate::collapse::tile::blend_attributes;
-use crate::collapse::{Collapse, Edge, Rules};
+use crate::collapse::{Collapse, Edge, HalfEdge, Rules};
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
 use glam::Vec3A;
@@ -52,6 +52,8 @@ enum Outcome {
 }
 
 const IMPOSSIBLE: Candidate = Candidate { cost: f32::INFINITY, partner: NONE };
+/// Comes up at once.
+const FREE: Candidate = Candidate { cost: 0.0, partner: NONE };
 
 /// A surface with rings that follow each collapse, and the queue of its vertices.
 pub(crate) struct Finish<'a> {
@@ -66,6 +68,8 @@ pub(crate) struct Finish<'a> {
     quadrics: Vec<Quadric>,
     candidates: Vec<Candidate>,
     queue: Queue,
+    /// Whether what is known about a vertex is to be renewed before it is collapsed.
+    stale: Vec<bool>,
     /// The collapse in which a vertex was last among those whose quadrics changed.
     changed: Vec<u32>,
     stamp: u32,
@@ -107,6 +111,7 @@ impl<'a> Finish<'a> {
             quadrics: vec![Quadric::default(); vertices],
             candidates: vec![IMPOSSIBLE; vertices],
             queue: Queue::new(vertices),
+            stale: vec![false; vertices],
             changed: vec![0; vertices],
             stamp: 0,
             counts,
@@ -150,6 +155,12 @@ impl<'a> Finish<'a> {
         while goal.excess(self.counts) > 0
             && let Some((_, vertex)) = self.queue.first()
         {
+            if std::mem::take(&mut self.stale[vertex as usize]) {
+                self.refresh(vertex);
+                self.gather_neighbours(vertex, &mut around);
+                self.choose(vertex, &around, None);
+                continue;
+            }
             let candidate = self.candidates[vertex as usize];
             match self.try_collapse(vertex, candidate.partner, goal) {
                 Outcome::Done => {
@@ -171,6 +182,13 @@ impl<'a> Finish<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Whether vertices are brought up to date only when they come up: where no vertex moves, costs around a
+    /// collapse mostly rise. What gives up the topology has to know at once which vertices are left without
+    /// a face.
+    fn is_lazy(&self) -> bool {
+        self.rules.half_edge && !self.rules.any_topology
     }
 
     fn is_hub(&self, vertex: u32) -> bool {
@@ -236,7 +254,8 @@ impl<'a> Finish<'a> {
         let ring = &scratch.source;
         let flags = &mut self.surface.flags[vertex as usize];
         *flags = *flags & !flag::BOUNDARY | if ring.boundary { flag::BOUNDARY } else { 0 };
-        self.quadrics[vertex as usize] = ring.quadric;
+        let quadric = if self.rules.half_edge { ring.quadric.for_half_edge() } else { ring.quadric };
+        self.quadrics[vertex as usize] = quadric;
         let alive = !ring.next().is_empty();
         self.scratch = scratch;
         alive
@@ -274,7 +293,9 @@ impl<'a> Finish<'a> {
         }
         if self.rules.half_edge {
             let edge = self.position(b) - self.position(a);
-            let cost = if self.is_locked(a) { f32::INFINITY } else { self.quadrics[a as usize].at(edge) };
+            let is_border = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
+            let stays = self.is_locked(a) || is_border(a) && !is_border(b);
+            let cost = if stays { f32::INFINITY } else { self.quadrics[a as usize].at(edge) };
             return if cost.is_nan() { f32::INFINITY } else { cost };
         }
         let (a, b) = (a.min(b), a.max(b));
@@ -351,6 +372,17 @@ impl<'a> Finish<'a> {
         self.scratch = scratch;
 
         self.set(ends[0], IMPOSSIBLE);
+        if self.is_lazy() {
+            for &vertex in &around {
+                self.stale[vertex as usize] = true;
+                // What had nowhere to go may have now.
+                if self.candidates[vertex as usize] == IMPOSSIBLE && !self.is_locked(vertex) {
+                    self.set(vertex, FREE);
+                }
+            }
+            self.scratch.neighbours[0] = around;
+            return Outcome::Done;
+        }
         if self.rules.any_topology {
             for index in 0..around.len() {
                 if !self.is_hub(around[index]) {
@@ -442,6 +474,10 @@ impl<'a> Finish<'a> {
         self.first[from] = NONE;
         self.degrees[from] = 0;
         let surface = &mut *self.surface;
+        if let Some(sources) = &surface.sources {
+            let done = HalfEdge { source: sources[from], target: sources[into] };
+            surface.collapses.iter_mut().for_each(|collapses| collapses.push(done));
+        }
         surface.points[into] = collapse.point;
         surface.flags[from] |= flag::DEAD;
         if let Some(merged) = surface.merged.get_mut(from) {

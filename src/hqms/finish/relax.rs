@@ -89,6 +89,7 @@ impl Finish<'_> {
         self.degrees.push(0);
         self.quadrics.push(Quadric::default());
         self.candidates.push(IMPOSSIBLE);
+        self.stale.push(false);
         self.changed.push(0);
         self.counts.vertices += 1;
         name
