@@ -17,7 +17,8 @@
 //!
 //! | floor | room | what it is for |
 //! | --- | --- | --- |
-//! | 4 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
+//! | 5 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
+//! | 4 | [`lod`] | levels of detail on one vertex buffer: nested levels, progressive meshes |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
 //! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
@@ -45,6 +46,7 @@ pub mod internals {
 }
 #[cfg(feature = "io")]
 pub mod io;
+pub mod lod;
 pub mod mesh;
 mod monitor;
 pub mod multiple_choice;
@@ -53,9 +55,10 @@ mod random;
 mod workers;
 
 pub use hqms::{
-    Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology, build_levels,
-    coarsest_within, simplify,
+    HalfEdge, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
+    build_levels, simplify,
 };
+pub use lod::coarsest_within;
 pub use mesh::{Attributes, Mesh, MeshError};
 pub use monitor::{Cancelled, Monitor};
 pub use workers::ThreadsError;

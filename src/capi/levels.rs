@@ -8,7 +8,8 @@ use super::status::{
     DECIMESH_ERROR_OVERFLOW, Failure, decimesh_status,
 };
 use super::structs;
-use crate::hqms::{build_levels, coarsest_within};
+use crate::hqms::build_levels;
+use crate::lod::coarsest_within;
 use std::slice;
 
 /// Levels of detail of one mesh, from fine to coarse: immutable.

@@ -34,15 +34,18 @@ mod gltf;
 mod obj;
 mod off;
 mod ply;
-mod source;
+mod replace;
+pub(crate) mod source;
 mod stl;
 mod text;
 
 use std::fmt;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+pub(crate) use gltf::LevelOfDetail;
+pub(crate) use replace::replace;
 use source::Source;
 
 use crate::mesh::{Attributes, Mesh, MeshError};
@@ -246,29 +249,7 @@ fn read_source(source: &mut Source, format: Format, directory: Option<&Path>) ->
 /// nothing is left behind.
 pub fn write(mesh: &Mesh, path: &Path, options: &WriteOptions) -> Result<(), FileError> {
     let format = Format::from_path(path)?;
-    replace(mesh, path, format, options).map_err(|source| FileError::Write { path: path.to_owned(), source })
-}
-
-fn replace(mesh: &Mesh, path: &Path, format: Format, options: &WriteOptions) -> Result<(), WriteError> {
-    // A link stays a link: what it points to is replaced.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let old = fs::metadata(&target).ok().map(|metadata| metadata.permissions());
-    if old.as_ref().is_some_and(fs::Permissions::readonly) {
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected").into());
-    }
-    let directory = target.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".decimesh-");
-    // Temporary files are private by default; this one is to become an ordinary file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(directory.unwrap_or(Path::new(".")))?;
-    write_to(mesh, format, options, file.as_file_mut())?;
-    if let Some(permissions) = old {
-        file.as_file().set_permissions(permissions)?;
-    }
-    file.persist(&target).map_err(|error| error.error)?;
-    Ok(())
+    replace(path, |file| write_to(mesh, format, options, file))
 }
 
 /// Writes `mesh` to `writer` and flushes it. `writer` need not be buffered.
@@ -289,6 +270,15 @@ pub fn write_to(
     }
     writer.flush()?;
     Ok(())
+}
+
+/// Writes the levels of `mesh` to the file at `path` as GLB.
+pub(crate) fn write_levels(mesh: &Mesh, levels: &[LevelOfDetail], path: &Path) -> Result<(), FileError> {
+    replace(path, |file| {
+        let mut writer = BufWriter::with_capacity(1 << 18, file);
+        gltf::write_binary_levels(mesh, levels, &mut writer)?;
+        Ok(writer.flush()?)
+    })
 }
 
 /// The last step of every reader.

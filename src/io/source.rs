@@ -10,7 +10,7 @@ const BUFFER: usize = 1 << 18;
 /// No mesh has a longer line on purpose; a file without line ends shall not be read into memory.
 const LONGEST_LINE: usize = 1 << 24;
 
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     reader: &'a mut dyn Read,
     buffer: Vec<u8>,
     start: usize,
@@ -23,32 +23,32 @@ pub(super) struct Source<'a> {
 impl<'a> Source<'a> {
     /// `length` is that of the whole input where it is known; it is believed only as far as errors
     /// and reservations go.
-    pub(super) fn new(reader: &'a mut dyn Read, length: Option<u64>) -> Self {
+    pub(crate) fn new(reader: &'a mut dyn Read, length: Option<u64>) -> Self {
         let size = length.and_then(|length| usize::try_from(length).ok()).unwrap_or(BUFFER).clamp(64, BUFFER);
         Self { reader, buffer: vec![0; size], start: 0, end: 0, offset: 0, length, line: 0 }
     }
 
-    pub(super) fn length(&self) -> Option<u64> {
+    pub(crate) fn length(&self) -> Option<u64> {
         self.length
     }
 
-    pub(super) fn remaining(&self) -> Option<u64> {
+    pub(crate) fn remaining(&self) -> Option<u64> {
         self.length.map(|length| length.saturating_sub(self.offset))
     }
 
     /// An error at the byte to be read next.
-    pub(super) fn error_here(&self, problem: impl Into<String>) -> ReadError {
+    pub(crate) fn error_here(&self, problem: impl Into<String>) -> ReadError {
         ReadError::Malformed { place: Place::Byte(self.offset), problem: problem.into() }
     }
 
     /// An error in the line read last.
-    pub(super) fn error_in_line(&self, problem: impl Into<String>) -> ReadError {
+    pub(crate) fn error_in_line(&self, problem: impl Into<String>) -> ReadError {
         ReadError::Malformed { place: Place::Line(self.line), problem: problem.into() }
     }
 
     /// Refuses a promise of `count` things of at least `bytes_each` bytes that the rest of the file
     /// is too short to keep.
-    pub(super) fn expect(&self, count: u64, bytes_each: u64, what: &str) -> Result<(), ReadError> {
+    pub(crate) fn expect(&self, count: u64, bytes_each: u64, what: &str) -> Result<(), ReadError> {
         let needed = count.saturating_mul(bytes_each);
         match self.remaining() {
             Some(remaining) if remaining < needed => Err(self.error_here(format!(
@@ -60,7 +60,7 @@ impl<'a> Source<'a> {
 
     /// An empty list with room for `count` things of at least `bytes_each` bytes in the file, but
     /// for no more than the rest of the file can hold.
-    pub(super) fn list<T>(&self, count: u64, bytes_each: u64) -> Result<Vec<T>, ReadError> {
+    pub(crate) fn list<T>(&self, count: u64, bytes_each: u64) -> Result<Vec<T>, ReadError> {
         let most = self.remaining().unwrap_or(BUFFER as u64) / bytes_each.max(1) + 1;
         let mut list = Vec::new();
         list.try_reserve_exact(usize::try_from(count.min(most)).unwrap_or(usize::MAX))
@@ -69,14 +69,14 @@ impl<'a> Source<'a> {
     }
 
     /// The next bytes, up to `count` of them, without moving on.
-    pub(super) fn peek(&mut self, count: usize) -> Result<&[u8], ReadError> {
+    pub(crate) fn peek(&mut self, count: usize) -> Result<&[u8], ReadError> {
         self.fill(count)?;
         Ok(&self.buffer[self.start..self.end.min(self.start + count)])
     }
 
     /// The next `count` bytes. Meant for small counts: they are buffered whole.
     #[inline]
-    pub(super) fn take(&mut self, count: usize) -> Result<&[u8], ReadError> {
+    pub(crate) fn take(&mut self, count: usize) -> Result<&[u8], ReadError> {
         if self.end - self.start < count {
             self.refill(count)?;
         }
@@ -93,7 +93,7 @@ impl<'a> Source<'a> {
         if self.fill(count)? { Ok(()) } else { Err(self.error_here("the file ends here")) }
     }
 
-    pub(super) fn skip(&mut self, count: u64) -> Result<(), ReadError> {
+    pub(crate) fn skip(&mut self, count: u64) -> Result<(), ReadError> {
         let mut left = count;
         while left > 0 {
             let step = left.min(BUFFER as u64) as usize;
@@ -104,7 +104,7 @@ impl<'a> Source<'a> {
     }
 
     /// The next `count` bytes, in memory of their own that grows only as they come.
-    pub(super) fn take_all(&mut self, count: u64) -> Result<Vec<u8>, ReadError> {
+    pub(crate) fn take_all(&mut self, count: u64) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.list(count, 1)?;
         let mut left = count;
         while left > 0 {
@@ -116,7 +116,7 @@ impl<'a> Source<'a> {
     }
 
     /// All that is left.
-    pub(super) fn take_rest(&mut self) -> Result<Vec<u8>, ReadError> {
+    pub(crate) fn take_rest(&mut self) -> Result<Vec<u8>, ReadError> {
         let mut bytes = self.list(self.remaining().unwrap_or(0), 1)?;
         while self.fill(1)? {
             bytes.extend_from_slice(&self.buffer[self.start..self.end]);
@@ -127,7 +127,7 @@ impl<'a> Source<'a> {
     }
 
     /// The next line, without its end; `None` at the end of the file.
-    pub(super) fn next_line(&mut self) -> Result<Option<&[u8]>, ReadError> {
+    pub(crate) fn next_line(&mut self) -> Result<Option<&[u8]>, ReadError> {
         self.line += 1;
         let mut searched = 0;
         let length = loop {
@@ -175,7 +175,7 @@ impl<'a> Source<'a> {
 }
 
 /// Refuses more vertices than an index can name, before any is read.
-pub(super) fn check_vertex_count(count: u64) -> Result<(), ReadError> {
+pub(crate) fn check_vertex_count(count: u64) -> Result<(), ReadError> {
     let limit = u32::MAX as usize;
     match usize::try_from(count) {
         Ok(count) if count <= limit => Ok(()),

@@ -170,6 +170,16 @@ impl Mesh {
         &self.attributes
     }
 
+    /// A mesh of the first `vertices` vertices and of `triangles`, which name no others.
+    pub(crate) fn prefix(&self, vertices: usize, triangles: Vec<[u32; 3]>) -> Self {
+        let kept: Vec<u32> = (0..vertices as u32).collect();
+        Self {
+            positions: self.positions[..vertices].to_vec(),
+            triangles,
+            attributes: self.attributes.select(&kept),
+        }
+    }
+
     /// The buffers, without a copy.
     pub fn into_parts(self) -> (Vec<[f32; 3]>, Vec<[u32; 3]>, Attributes) {
         (self.positions, self.triangles, self.attributes)

@@ -21,7 +21,8 @@ use super::source::Source;
 use super::{Place, ReadError};
 use crate::mesh::Mesh;
 
-pub(super) use write::{write_binary, write_document};
+pub(crate) use write::LevelOfDetail;
+pub(super) use write::{write_binary, write_binary_levels, write_document};
 
 const MAGIC: &[u8; 4] = b"glTF";
 const VERSION: u32 = 2;

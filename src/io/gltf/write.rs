@@ -1,10 +1,10 @@
-//! One mesh, one primitive, one node, one buffer.
+//! One mesh, one primitive, one node, one buffer; or one of each but the buffer for each level of detail.
 
 use std::io::{self, Write};
 
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderStringWriter;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::{BINARY, JSON, MAGIC, VERSION};
 use crate::io::{WriteError, unit};
@@ -17,9 +17,33 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
+/// What a level of detail shows of a vertex buffer.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LevelOfDetail<'a> {
+    /// Its vertices are those before this one.
+    pub(crate) vertices: usize,
+    pub(crate) triangles: &'a [[u32; 3]],
+    /// In units of the positions.
+    pub(crate) error: f32,
+}
+
 /// Writes GLB.
 pub(in crate::io) fn write_binary(mesh: &Mesh, writer: &mut impl Write) -> Result<(), WriteError> {
-    let layout = Layout::new(mesh)?;
+    write_chunks(&Layout::new(mesh, &[whole(mesh)])?, writer)
+}
+
+/// Writes GLB with a node for each level, from fine to coarse, that share the vertices of `mesh`.
+///
+/// The first names the others as `MSFT_lod` wants it. Levels without triangles are left out.
+pub(in crate::io) fn write_binary_levels(
+    mesh: &Mesh,
+    levels: &[LevelOfDetail],
+    writer: &mut impl Write,
+) -> Result<(), WriteError> {
+    write_chunks(&Layout::new(mesh, levels)?, writer)
+}
+
+fn write_chunks(layout: &Layout, writer: &mut impl Write) -> Result<(), WriteError> {
     let mut json = layout.document(None).to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let chunks =
@@ -43,7 +67,7 @@ pub(in crate::io) fn write_binary(mesh: &Mesh, writer: &mut impl Write) -> Resul
 
 /// Writes JSON with the buffer embedded, so that the file is whole by itself.
 pub(in crate::io) fn write_document(mesh: &Mesh, writer: &mut impl Write) -> Result<(), WriteError> {
-    let layout = Layout::new(mesh)?;
+    let layout = Layout::new(mesh, &[whole(mesh)])?;
     let uri = "data:application/octet-stream;base64,".to_owned();
     let mut encoder = EncoderStringWriter::from_consumer(uri, &STANDARD);
     layout.write_buffer(&mut encoder)?;
@@ -52,66 +76,87 @@ pub(in crate::io) fn write_document(mesh: &Mesh, writer: &mut impl Write) -> Res
     Ok(())
 }
 
-/// A mesh, and where its parts stand in the buffer.
+/// The only level of a mesh.
+fn whole(mesh: &Mesh) -> LevelOfDetail<'_> {
+    LevelOfDetail { vertices: mesh.positions().len(), triangles: mesh.triangles(), error: 0.0 }
+}
+
+/// Levels of a mesh, and where their parts stand in the buffer.
 ///
 /// glTF knows no accessor of nothing, so a mesh without triangles becomes a document without one.
 struct Layout<'a> {
     mesh: &'a Mesh,
+    levels: Vec<LevelOfDetail<'a>>,
+    /// Vertices that a level has.
+    vertices: usize,
     views: Vec<Value>,
     accessors: Vec<Value>,
-    attributes: serde_json::Map<String, Value>,
+    primitives: Vec<Value>,
     length: u64,
 }
 
+/// An attribute that a mesh has.
+struct Stream {
+    name: &'static str,
+    component: u32,
+    kind: &'static str,
+    bytes: u64,
+}
+
 impl<'a> Layout<'a> {
-    fn new(mesh: &'a Mesh) -> Result<Self, WriteError> {
+    fn new(mesh: &'a Mesh, levels: &[LevelOfDetail<'a>]) -> Result<Self, WriteError> {
+        let levels: Vec<_> = levels.iter().copied().filter(|level| !level.triangles.is_empty()).collect();
         let mut layout = Layout {
             mesh,
+            vertices: levels.iter().map(|level| level.vertices).max().unwrap_or(0),
             views: Vec::new(),
             accessors: Vec::new(),
-            attributes: serde_json::Map::new(),
+            primitives: Vec::new(),
             length: 0,
+            levels,
         };
-        if mesh.triangles().is_empty() {
+        if layout.levels.is_empty() {
             return Ok(layout);
         }
-        let vertices = mesh.positions().len() as u64;
-        let Attributes { normals, colors, uvs } = mesh.attributes();
-        layout.add_attribute("POSITION", FLOAT, "VEC3", vertices * 12);
-        let (min, max) = bounds(mesh.positions());
-        layout.accessors[0]["min"] = json!(min);
-        layout.accessors[0]["max"] = json!(max);
-        if normals.is_some() {
-            layout.add_attribute("NORMAL", FLOAT, "VEC3", vertices * 12);
-        }
-        if uvs.is_some() {
-            layout.add_attribute("TEXCOORD_0", FLOAT, "VEC2", vertices * 8);
-        }
-        if colors.is_some() {
-            layout.add_attribute("COLOR_0", UNSIGNED_BYTE, "VEC4", vertices * 4);
-            if let Some(accessor) = layout.accessors.last_mut() {
-                accessor["normalized"] = json!(true);
+        let streams = streams(mesh.attributes());
+        for stream in &streams {
+            layout.add_view(layout.vertices as u64 * stream.bytes, ARRAY_BUFFER);
+            // glTF wants it said where several accessors share a view.
+            if let (Some(view), true) = (layout.views.last_mut(), layout.levels.len() > 1) {
+                view["byteStride"] = json!(stream.bytes);
             }
         }
-        let indices = mesh.triangles().len() as u64 * 3;
-        let (component, size) = if layout.short_indices() { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
-        layout.add_view(indices * size, ELEMENT_ARRAY_BUFFER);
-        layout.add_accessor(component, "SCALAR", indices);
+        for level in layout.levels.clone() {
+            layout.add_level(level, &streams);
+        }
         match u32::try_from(layout.length) {
             Ok(_) => Ok(layout),
             Err(_) => Err(WriteError::TooLarge { bytes: layout.length }),
         }
     }
 
-    /// The largest index of 16 bits is not allowed: it restarts strips.
-    fn short_indices(&self) -> bool {
-        self.mesh.positions().len() <= usize::from(u16::MAX)
-    }
-
-    fn add_attribute(&mut self, name: &str, component: u32, kind: &str, bytes: u64) {
-        self.attributes.insert(name.to_owned(), json!(self.accessors.len()));
-        self.add_view(bytes, ARRAY_BUFFER);
-        self.add_accessor(component, kind, self.mesh.positions().len() as u64);
+    fn add_level(&mut self, level: LevelOfDetail, streams: &[Stream]) {
+        let mut attributes = Map::new();
+        for (view, stream) in streams.iter().enumerate() {
+            attributes.insert(stream.name.to_owned(), json!(self.accessors.len()));
+            self.add_accessor(view, stream.component, stream.kind, level.vertices as u64);
+            if let Some(accessor) = self.accessors.last_mut() {
+                if stream.name == "POSITION" {
+                    let (min, max) = bounds(&self.mesh.positions()[..level.vertices]);
+                    accessor["min"] = json!(min);
+                    accessor["max"] = json!(max);
+                }
+                if stream.component == UNSIGNED_BYTE {
+                    accessor["normalized"] = json!(true);
+                }
+            }
+        }
+        let indices = level.triangles.len() as u64 * 3;
+        let (component, size) =
+            if has_short_indices(&level) { (UNSIGNED_SHORT, 2) } else { (UNSIGNED_INT, 4) };
+        self.add_view(indices * size, ELEMENT_ARRAY_BUFFER);
+        self.primitives.push(json!({ "attributes": attributes, "indices": self.accessors.len() }));
+        self.add_accessor(self.views.len() - 1, component, "SCALAR", indices);
     }
 
     fn add_view(&mut self, bytes: u64, target: u32) {
@@ -121,8 +166,7 @@ impl<'a> Layout<'a> {
         self.length += bytes.next_multiple_of(4);
     }
 
-    fn add_accessor(&mut self, component: u32, kind: &str, count: u64) {
-        let view = self.views.len() - 1;
+    fn add_accessor(&mut self, view: usize, component: u32, kind: &str, count: u64) {
         self.accessors.push(json!({
             "bufferView": view, "componentType": component, "type": kind, "count": count,
         }));
@@ -137,19 +181,28 @@ impl<'a> Layout<'a> {
         if let Some(uri) = uri {
             buffer["uri"] = uri.into();
         }
-        json!({
+        let meshes: Vec<Value> =
+            self.primitives.iter().map(|primitive| json!({ "primitives": [primitive] })).collect();
+        let mut nodes: Vec<Value> = (0..meshes.len()).map(|mesh| json!({ "mesh": mesh })).collect();
+        let mut document = json!({
             "asset": asset,
             "scene": 0,
             "scenes": [{ "nodes": [0] }],
-            "nodes": [{ "mesh": 0 }],
-            "meshes": [{ "primitives": [{
-                "attributes": self.attributes,
-                "indices": self.accessors.len() - 1,
-            }] }],
+            "meshes": meshes,
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [buffer],
-        })
+        });
+        if self.levels.len() > 1 {
+            for (node, level) in nodes.iter_mut().zip(&self.levels) {
+                node["extras"] = json!({ "error": level.error });
+            }
+            let coarser: Vec<usize> = (1..self.levels.len()).collect();
+            nodes[0]["extensions"] = json!({ "MSFT_lod": { "ids": coarser } });
+            document["extensionsUsed"] = json!(["MSFT_lod"]);
+        }
+        document["nodes"] = nodes.into();
+        document
     }
 
     fn write_buffer(&self, writer: &mut impl Write) -> io::Result<()> {
@@ -158,22 +211,40 @@ impl<'a> Layout<'a> {
         }
         let Attributes { normals, colors, uvs } = self.mesh.attributes();
         let mut vector = |value: &[f32]| value.iter().try_for_each(|x| writer.write_all(&x.to_le_bytes()));
-        self.mesh.positions().iter().try_for_each(|position| vector(position))?;
-        for &normal in normals.iter().flatten() {
+        self.mesh.positions().iter().take(self.vertices).try_for_each(|position| vector(position))?;
+        for &normal in normals.iter().flatten().take(self.vertices) {
             // glTF knows no normal without a direction.
             vector(&unit(normal).unwrap_or([0.0, 0.0, 1.0]))?;
         }
-        uvs.iter().flatten().try_for_each(|&[u, v]| vector(&[u, 1.0 - v]))?;
-        colors.iter().flatten().try_for_each(|color| writer.write_all(color))?;
-        let indices = self.mesh.triangles().as_flattened();
-        if self.short_indices() {
-            indices.iter().try_for_each(|&index| writer.write_all(&(index as u16).to_le_bytes()))?;
-            let end = indices.len() * 2;
-            writer.write_all(&[0; 4][..end.next_multiple_of(4) - end])
-        } else {
-            indices.iter().try_for_each(|index| writer.write_all(&index.to_le_bytes()))
+        uvs.iter().flatten().take(self.vertices).try_for_each(|&[u, v]| vector(&[u, 1.0 - v]))?;
+        colors.iter().flatten().take(self.vertices).try_for_each(|color| writer.write_all(color))?;
+        for level in &self.levels {
+            let indices = level.triangles.as_flattened();
+            if has_short_indices(level) {
+                indices.iter().try_for_each(|&index| writer.write_all(&(index as u16).to_le_bytes()))?;
+                let end = indices.len() * 2;
+                writer.write_all(&[0; 4][..end.next_multiple_of(4) - end])?;
+            } else {
+                indices.iter().try_for_each(|index| writer.write_all(&index.to_le_bytes()))?;
+            }
         }
+        Ok(())
     }
+}
+
+/// In the order in which they stand in the buffer.
+fn streams(Attributes { normals, colors, uvs }: &Attributes) -> Vec<Stream> {
+    let stream = |name, component, kind, bytes| Stream { name, component, kind, bytes };
+    let mut streams = vec![stream("POSITION", FLOAT, "VEC3", 12)];
+    streams.extend(normals.as_ref().map(|_| stream("NORMAL", FLOAT, "VEC3", 12)));
+    streams.extend(uvs.as_ref().map(|_| stream("TEXCOORD_0", FLOAT, "VEC2", 8)));
+    streams.extend(colors.as_ref().map(|_| stream("COLOR_0", UNSIGNED_BYTE, "VEC4", 4)));
+    streams
+}
+
+/// The largest index of 16 bits is not allowed: it restarts strips.
+fn has_short_indices(level: &LevelOfDetail) -> bool {
+    level.vertices <= usize::from(u16::MAX)
 }
 
 fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
