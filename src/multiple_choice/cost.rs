@@ -39,6 +39,8 @@ pub(super) struct Bends {
     /// those before.
     after: Vec<f32>,
     before: Vec<f32>,
+    /// Equation 1, by the distance of two faces.
+    weights: Vec<f32>,
 }
 
 impl Bends {
@@ -75,18 +77,19 @@ impl Cost {
 /// border itself.
 fn visual(fan: &Fan, bends: &mut Bends, costs: &mut Vec<f32>) {
     bends.set_normals(fan);
-    let Bends { normals, after, before } = bends;
+    let Bends { normals, after, before, weights } = bends;
     let count = fan.faces();
     after.clear();
     after.resize(count, 0.0);
     before.clear();
     before.resize(count, 0.0);
-    let weight = |steps: usize| count as f32 / (count + steps) as f32;
+    weights.clear();
+    weights.extend((0..count).map(|steps| count as f32 / (count + steps) as f32));
     for i in 0..count {
         for j in i + 1..count {
             let bend = bend(normals[i], normals[j]);
-            let near = weight(j - i);
-            let far = if fan.closed { weight(count - (j - i)) } else { near };
+            let near = weights[j - i];
+            let far = if fan.closed { weights[count - (j - i)] } else { near };
             after[i] += bend * near;
             before[j] += bend * near;
             after[j] += bend * far;

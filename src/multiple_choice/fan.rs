@@ -19,6 +19,17 @@ pub(super) struct Fan {
     pairs: Vec<(u32, u32)>,
 }
 
+/// Puts those pairs in front that follow from the first one, each beginning where the one before it ends:
+/// how many.
+fn chain(pairs: &mut [(u32, u32)]) -> usize {
+    for face in 1..pairs.len() {
+        let last = pairs[face - 1].1;
+        let Some(after) = (face..pairs.len()).find(|&other| pairs[other].0 == last) else { return face };
+        pairs.swap(face, after);
+    }
+    pairs.len()
+}
+
 impl Fan {
     /// Gathers the fan of `vertex`; `false` if its faces do not make one fan, or are too many.
     pub(super) fn gather(
@@ -35,24 +46,20 @@ impl Fan {
         }
         pairs.clear();
         pairs.extend(corners.iter().map(|&corner| neighbours(faces, corner)));
-        let mut starts = (0..pairs.len()).filter(|&face| pairs.iter().all(|pair| pair.1 != pairs[face].0));
-        let start = starts.next();
-        *closed = start.is_none();
-        if starts.next().is_some() {
-            return false;
+        // Mostly the vertex is inside, and any face does to begin with.
+        if chain(pairs) < pairs.len() {
+            let mut starts =
+                (0..pairs.len()).filter(|&face| pairs.iter().all(|pair| pair.1 != pairs[face].0));
+            let (Some(start), None) = (starts.next(), starts.next()) else { return false };
+            pairs.swap(0, start);
+            if chain(pairs) < pairs.len() {
+                return false;
+            }
         }
-        pairs.swap(0, start.unwrap_or(0));
         rim.clear();
-        rim.extend([pairs[0].0, pairs[0].1]);
-        for face in 1..pairs.len() {
-            let last = pairs[face - 1].1;
-            let Some(after) = (face..pairs.len()).find(|&other| pairs[other].0 == last) else { return false };
-            pairs.swap(face, after);
-            rim.push(pairs[face].1);
-        }
-        if *closed && rim.first() != rim.last() {
-            return false;
-        }
+        rim.push(pairs[0].0);
+        rim.extend(pairs.iter().map(|pair| pair.1));
+        *closed = rim.first() == rim.last();
         let origin = points[vertex as usize];
         spokes.clear();
         spokes.extend(rim.iter().map(|&neighbour| points[neighbour as usize] - origin));

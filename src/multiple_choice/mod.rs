@@ -7,7 +7,8 @@
 //!
 //! What the paper leaves open is said where it is decided: the border ([`Cost`]), the link condition and
 //! vertices that have no legal collapse (left out until something around them changes). Other costs and
-//! another selection stand beside the paper's, so that they can be compared: `examples/half_edge.rs` does.
+//! selections stand beside the paper's, so that they can be compared: `examples/multiple_choice` does, and
+//! `docs/multiple-choice.md` has what it measured.
 //! The visual cost makes 2.3 to 3.3 times the error of [`simplify`](crate::simplify) with
 //! [`Placement::Existing`](crate::Placement::Existing) on the Stanford bunny, and takes longer: a program
 //! that only wants the result should use that.
@@ -21,6 +22,7 @@ mod state;
 pub use cost::Cost;
 pub use selection::Selection;
 
+use crate::collapse::HalfEdge;
 use crate::mesh::Mesh;
 use crate::monitor::{Cancelled, Monitor};
 use selection::Order;
@@ -29,13 +31,14 @@ use state::{State, flag};
 /// Collapses between two looks at the monitor.
 const BATCH: usize = 1024;
 
-/// Two vertices of the input: `source` went into `target`, which stayed where it was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct HalfEdge {
-    /// The vertex that went.
-    pub source: u32,
-    /// The vertex it went into.
-    pub target: u32,
+/// A vertex to lock that the mesh does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("locked vertex {vertex} does not exist: there are {vertices} vertices")]
+pub struct NoSuchVertex {
+    /// The index that was given.
+    pub vertex: u32,
+    /// How many vertices the mesh has.
+    pub vertices: usize,
 }
 
 /// A mesh that loses one vertex after another.
@@ -69,7 +72,28 @@ impl Decimation {
     /// Evaluates every vertex of `mesh`. Linear in the triangles; about 100 bytes a vertex, its points and
     /// faces included.
     pub fn new(mesh: &Mesh, cost: Cost, selection: Selection) -> Self {
+        Self::start(State::new(mesh, cost), selection)
+    }
+
+    /// Like [`new`](Self::new), with vertices of the input that must stay: none of them goes into another,
+    /// but others may go into them. To name one twice is allowed.
+    pub fn with_locked(
+        mesh: &Mesh,
+        cost: Cost,
+        selection: Selection,
+        locked: &[u32],
+    ) -> Result<Self, NoSuchVertex> {
         let mut state = State::new(mesh, cost);
+        let vertices = mesh.positions().len();
+        for &vertex in locked {
+            let flags = state.flags.get_mut(vertex as usize);
+            *flags.ok_or(NoSuchVertex { vertex, vertices })? |= flag::LOCKED;
+        }
+        Ok(Self::start(state, selection))
+    }
+
+    fn start(mut state: State, selection: Selection) -> Self {
+        state.choose_all();
         let order = Order::new(selection, &mut state);
         Self { state, order, collapses: Vec::new() }
     }
@@ -91,14 +115,7 @@ impl Decimation {
                 continue;
             };
             self.collapses.push(HalfEdge { source, target });
-            for &vertex in &touched {
-                let flags = &mut self.state.flags[vertex as usize];
-                *flags |= flag::DIRTY;
-                if *flags & flag::OUT != 0 {
-                    *flags &= !flag::OUT;
-                    self.order.readmit(vertex);
-                }
-            }
+            touched.iter().for_each(|&vertex| self.order.follow(vertex, &mut self.state));
             since_report += 1;
             if since_report == BATCH {
                 since_report = 0;

@@ -49,14 +49,14 @@ pub(super) struct State {
 }
 
 impl State {
-    /// A state in which every vertex has made its choice.
+    /// A state in which no vertex has made its choice yet.
     pub(super) fn new(mesh: &Mesh, cost: Cost) -> Self {
         let scale = unit_scale(mesh);
         let vertices = mesh.positions().len();
         let faces: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(is_face).collect();
         let mut flags = vec![flag::DIRTY; vertices];
         seams(mesh).into_iter().for_each(|vertex| flags[vertex as usize] |= flag::LOCKED);
-        let mut state = Self {
+        Self {
             points: mesh.positions().iter().map(|&point| Vec3A::from(point) * scale).collect(),
             alive: faces.len(),
             corners: Corners::new(vertices, &faces),
@@ -69,9 +69,12 @@ impl State {
             bends: Bends::default(),
             costs: Vec::new(),
             around_target: Vec::new(),
-        };
-        (0..vertices as u32).for_each(|vertex| state.bring_up_to_date(vertex));
-        state
+        }
+    }
+
+    /// Lets every vertex make its choice.
+    pub(super) fn choose_all(&mut self) {
+        (0..self.choices.len() as u32).for_each(|vertex| self.bring_up_to_date(vertex));
     }
 
     /// Renews the choice of `vertex`, if something around it has changed. Whether it keeps the topology is

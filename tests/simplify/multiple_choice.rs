@@ -1,7 +1,7 @@
 //! Half-edge collapse: what must be true of every cost and selection.
 
 use decimesh::mesh::{shapes, verify};
-use decimesh::multiple_choice::{Cost, Decimation, Selection};
+use decimesh::multiple_choice::{Cost, Decimation, NoSuchVertex, Selection};
 use decimesh::{Mesh, Monitor};
 use proptest::prelude::*;
 use std::num::NonZeroU32;
@@ -12,10 +12,18 @@ use crate::meshes::{attributed, dirty_mesh, fan, moved, torn_mesh};
 
 const COSTS: [Cost; 3] = [Cost::Visual, Cost::Melax, Cost::Quadric];
 
+fn drawn(candidates: u32, seed: u64) -> Selection {
+    Selection::MultipleChoice { candidates: NonZeroU32::new(candidates).unwrap(), seed }
+}
+
+fn selections() -> [Selection; 3] {
+    [Selection::default(), Selection::LazyHeap, Selection::EagerHeap]
+}
+
 fn decimation() -> impl Strategy<Value = (Cost, Selection)> {
-    let drawn = ((1u32..8).prop_map(|count| NonZeroU32::new(count).unwrap()), any::<u64>())
-        .prop_map(|(candidates, seed)| Selection::MultipleChoice { candidates, seed });
-    (prop::sample::select(&COSTS[..]), prop_oneof![2 => drawn, 1 => Just(Selection::LazyHeap)])
+    let drawn = (1u32..8, any::<u64>()).prop_map(|(candidates, seed)| drawn(candidates, seed));
+    let heap = prop::sample::select(&[Selection::LazyHeap, Selection::EagerHeap][..]);
+    (prop::sample::select(&COSTS[..]), prop_oneof![drawn, heap])
 }
 
 /// The triangles on the input's vertices, as a mesh without the vertices that none of them uses.
@@ -34,17 +42,22 @@ fn compacted(input: &Mesh, triangles: &[[u32; 3]]) -> Mesh {
     Mesh::new(positions, triangles).unwrap()
 }
 
-/// The input's triangles after these collapses, done one after the other in the plainest way.
+/// Does one collapse in the plainest way.
+fn replay(triangles: &mut Vec<[u32; 3]>, source: u32, target: u32) {
+    for corner in triangles.as_flattened_mut() {
+        if *corner == source {
+            *corner = target;
+        }
+    }
+    triangles.retain(is_face);
+}
+
+/// The input's triangles after these collapses.
 fn replayed(mesh: &Mesh, decimation: &Decimation) -> Vec<[u32; 3]> {
     let mut triangles: Vec<[u32; 3]> = mesh.triangles().to_vec();
     triangles.retain(is_face);
     for collapse in decimation.collapses() {
-        for corner in triangles.as_flattened_mut() {
-            if *corner == collapse.source {
-                *corner = collapse.target;
-            }
-        }
-        triangles.retain(is_face);
+        replay(&mut triangles, collapse.source, collapse.target);
     }
     triangles
 }
@@ -81,6 +94,38 @@ proptest! {
         check(&mesh, cost, selection, share);
     }
 
+    /// No collapse turns a face to its back.
+    #[test]
+    fn no_collapse_flips_a_face(mesh in torn_mesh(), (cost, selection) in decimation()) {
+        let mut decimation = Decimation::new(&mesh, cost, selection);
+        decimation.reduce_to(0, &mut Monitor::silent()).unwrap();
+        let mut triangles: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(is_face).collect();
+        for (source, target) in decimation.collapses().iter().map(|collapse| (collapse.source, collapse.target)) {
+            for &triangle in triangles.iter().filter(|triangle| triangle.contains(&source)) {
+                let after = triangle.map(|vertex| if vertex == source { target } else { vertex });
+                if is_face(&after) {
+                    let [before, after] = [triangle, after].map(|face| normal(&mesh, face).normalize_or_zero());
+                    // The engine calculates in single precision.
+                    prop_assert!(before.dot(after) > -1e-3, "{before} became {after}");
+                }
+            }
+            replay(&mut triangles, source, target);
+        }
+    }
+
+    #[test]
+    fn locked_vertices_stay(
+        mesh in torn_mesh(),
+        (cost, selection) in decimation(),
+        picks in prop::collection::vec(any::<prop::sample::Index>(), 0..40),
+    ) {
+        let locked: Vec<u32> =
+            picks.iter().map(|pick| pick.index(mesh.positions().len()) as u32).collect();
+        let mut decimation = Decimation::with_locked(&mesh, cost, selection, &locked).unwrap();
+        decimation.reduce_to(0, &mut Monitor::silent()).unwrap();
+        prop_assert!(decimation.collapses().iter().all(|collapse| !locked.contains(&collapse.source)));
+    }
+
     /// To stop on the way changes nothing, and neither does scale.
     #[test]
     fn levels_are_those_of_one_run(mesh in torn_mesh(), (cost, selection) in decimation(), shift in -60i32..60) {
@@ -99,18 +144,44 @@ proptest! {
 #[test]
 fn seeds_matter_and_nothing_else_does() {
     let mesh = shapes::bumpy_sphere(40, 1);
-    let run = |cost, seed| {
-        let mut decimation = Decimation::new(
-            &mesh,
-            cost,
-            Selection::MultipleChoice { candidates: NonZeroU32::new(6).unwrap(), seed },
-        );
+    let run = |cost, selection| {
+        let mut decimation = Decimation::new(&mesh, cost, selection);
         assert!(decimation.reduce_to(500, &mut Monitor::silent()).unwrap());
-        decimation.collapses().to_vec()
+        (decimation.collapses().to_vec(), decimation.triangles())
     };
     for cost in COSTS {
-        assert_eq!(run(cost, 1), run(cost, 1));
-        assert_ne!(run(cost, 1), run(cost, 2));
+        for selection in [drawn(6, 1), Selection::LazyHeap, Selection::EagerHeap] {
+            assert_eq!(run(cost, selection), run(cost, selection));
+        }
+        assert_ne!(run(cost, drawn(6, 1)), run(cost, drawn(6, 2)));
+    }
+}
+
+#[test]
+fn a_vertex_that_is_not_there_cannot_be_locked() {
+    let plane = shapes::plane(3);
+    let lock = |locked: &[u32]| {
+        Decimation::with_locked(&plane, Cost::Visual, Selection::default(), locked).map(|_| ())
+    };
+    assert_eq!(lock(&[]), Ok(()));
+    assert_eq!(lock(&[15, 15]), Ok(()));
+    let error = lock(&[3, 16]).unwrap_err();
+    assert_eq!(error, NoSuchVertex { vertex: 16, vertices: 16 });
+    assert_eq!(error.to_string(), "locked vertex 16 does not exist: there are 16 vertices");
+}
+
+/// Others go into a locked vertex, and the corners of a plane are all that is needed.
+#[test]
+fn locked_vertices_are_gone_into() {
+    let plane = shapes::plane(10);
+    for selection in selections() {
+        let mut decimation =
+            Decimation::with_locked(&plane, Cost::Quadric, selection, &[0, 10, 60, 110, 120]).unwrap();
+        decimation.reduce_to(4, &mut Monitor::silent()).unwrap();
+        assert!(decimation.collapses().iter().any(|collapse| collapse.target == 60), "{selection:?}");
+        for locked in [0, 10, 60, 110, 120] {
+            assert!(decimation.triangles().as_flattened().contains(&locked), "{selection:?}: {locked}");
+        }
     }
 }
 
@@ -126,14 +197,14 @@ fn a_plane_stays_a_plane() {
     for plane in [flat, tilted] {
         let up = normal(&plane, plane.triangles()[0]);
         for cost in COSTS {
-            for selection in [Selection::default(), Selection::LazyHeap] {
+            for selection in selections() {
                 let mut decimation = Decimation::new(&plane, cost, selection);
                 decimation.reduce_to(20, &mut Monitor::silent()).unwrap();
                 let triangles = decimation.triangles();
                 assert!(triangles.len() < 200, "{cost:?} {selection:?}: {}", triangles.len());
                 let upright = triangles.iter().all(|&face| normal(&plane, face).dot(up) > 0.0);
                 assert!(upright, "a face is folded over");
-                if selection == Selection::LazyHeap && cost != Cost::Melax {
+                if selection != Selection::default() && cost != Cost::Melax {
                     let (before, after) = (area(&plane, plane.triangles()), area(&plane, &triangles));
                     assert!((before - after).abs() < 1e-6 * before, "{cost:?}: area {before} became {after}");
                 }
@@ -163,8 +234,10 @@ fn seams_stay() {
 #[test]
 fn a_hub_does_not_take_quadratic_time() {
     let hub = fan(200_000);
-    let mut decimation = Decimation::new(&hub, Cost::Visual, Selection::default());
-    decimation.reduce_to(10, &mut Monitor::silent()).unwrap();
+    for selection in selections() {
+        let mut decimation = Decimation::new(&hub, Cost::Visual, selection);
+        decimation.reduce_to(10, &mut Monitor::silent()).unwrap();
+    }
 }
 
 #[test]
