@@ -39,6 +39,9 @@ pub(crate) enum Command {
     /// Measure the distance between two surfaces.
     #[command(after_help = EXIT_CODES)]
     Compare(CompareArguments),
+    /// Take a level out of a progressive file.
+    #[command(after_help = EXIT_CODES)]
+    Play(PlayArguments),
     /// Say what is in a file.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArguments),
@@ -218,6 +221,13 @@ pub(crate) struct LevelsArguments {
     pub(crate) format: String,
     #[command(flatten)]
     pub(crate) engine: EngineArguments,
+    /// Collapse vertices into others, without making or moving any, and also write all levels, the input
+    /// as the first, into one file NAME_levels.glb: nodes that share one vertex buffer (MSFT_lod).
+    #[arg(long)]
+    pub(crate) nested: bool,
+    /// With --nested: also write all levels in between, as a progressive mesh that `play` takes levels from.
+    #[arg(long, value_name = "FILE.dpm", requires = "nested")]
+    pub(crate) progressive: Option<PathBuf>,
     /// Do not measure the levels' distance from the input.
     #[arg(long)]
     pub(crate) no_measure: bool,
@@ -227,6 +237,42 @@ pub(crate) struct LevelsArguments {
     /// Print nothing but warnings and errors.
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlayArguments {
+    /// The progressive file.
+    #[arg(value_name = "FILE.dpm")]
+    pub(crate) input: PathBuf,
+    /// Where the level goes; its extension says in what format.
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) level: PlayedLevel,
+    /// Write the text variant of formats that have one.
+    #[arg(long)]
+    pub(crate) ascii: bool,
+    /// Write what happened, as JSON, to this file.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Print nothing but warnings and errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Which level to take: exactly one of these.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub(crate) struct PlayedLevel {
+    /// The finest level with at most this many triangles, or the coarsest.
+    #[arg(long, value_name = "N")]
+    pub(crate) triangles: Option<usize>,
+    /// The finest level with at most this fraction of the finest's triangles, 0 to 1, or the coarsest.
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    pub(crate) ratio: Option<f64>,
+    /// The level of this number, as `levels` counts them; 0 is the finest.
+    #[arg(long, value_name = "K")]
+    pub(crate) level: Option<usize>,
 }
 
 #[derive(Debug, Args)]

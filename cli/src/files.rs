@@ -41,6 +41,16 @@ pub(crate) fn check_format(path: &Path) -> Result<(), Failure> {
     Format::from_path(path).map(|_| ()).map_err(Failure::Write)
 }
 
+/// The name of the file at `path`.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// How long the file at `path` is.
+pub(crate) fn bytes(path: &Path) -> Result<u64, Failure> {
+    Ok(std::fs::metadata(path).map_err(Failure::write(path))?.len())
+}
+
 /// Fails where `path` could not be made, for its directory does not exist.
 pub(crate) fn check_directory(path: &Path) -> Result<(), Failure> {
     if directory_of(path).is_dir() {

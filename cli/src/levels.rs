@@ -1,18 +1,24 @@
 //! `decimesh levels`: a chain of levels of detail, a file each.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use decimesh::deviation::{Sampling, deviation};
 use decimesh::hqms::build_levels;
-use decimesh::{Mesh, Simplified, Target};
+use decimesh::lod::{NestedLevels, Progressive};
+use decimesh::{Mesh, Options, Placement, Simplified, Target};
 
 use crate::allocation::peak_bytes;
 use crate::arguments::LevelsArguments;
 use crate::failure::Failure;
-use crate::files::{check_directory, check_format, make_directory, read, write};
+use crate::files::{
+    bytes, check_directory, check_format, directory_of, file_name, make_directory, read, write,
+};
 use crate::progress::Progress;
-use crate::report::{self, LevelReport, LevelsReport, grouped, significant, table};
+use crate::report::{
+    self, LevelReport, LevelsReport, NestedReport, ProgressiveReport, grouped, significant, table,
+};
 
 pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
     let LevelsArguments { input, directory, count, ratio, engine, .. } = arguments;
@@ -22,11 +28,16 @@ pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
         )));
     }
     let paths = paths(arguments)?;
-    arguments.report.as_deref().map_or(Ok(()), check_directory)?;
+    for path in arguments.report.iter().chain(&arguments.progressive) {
+        // The directory of the levels is made later, and is as good as there.
+        if directory_of(path) != directory {
+            check_directory(path)?;
+        }
+    }
     let original = read(input, engine.weld())?;
 
     let targets: Vec<Target> = (1..=*count).map(|level| Target::Ratio(ratio.powi(level as i32))).collect();
-    let options = engine.options(targets[0]);
+    let options = options(arguments, targets[0]);
     let progress = Progress::new(arguments.quiet);
     let begin = Instant::now();
     let (levels, peak_bytes) = peak_bytes(|| {
@@ -43,12 +54,17 @@ pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
         report::warn_if_stuck(&path.display().to_string(), level);
         reports.push(measure(&original, level, number, path, arguments, &progress)?);
     }
+    let nested = if arguments.nested { Some(write_nested(&original, &levels, arguments)?) } else { None };
+    let progressive = arguments.progressive.as_deref();
+    let progressive = progressive.map(|path| write_progressive(&original, &levels, path)).transpose()?;
     let report = LevelsReport {
         triangles_in: original.triangles().len(),
         vertices_in: original.positions().len(),
         seconds,
         peak_bytes,
         levels: reports,
+        nested,
+        progressive,
     };
     if let Some(path) = &arguments.report {
         report::write_json(path, &report)?;
@@ -59,10 +75,74 @@ pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Where the levels go: `NAME_1.ply` and so on, after the input's name.
-fn paths(arguments: &LevelsArguments) -> Result<Vec<PathBuf>, Failure> {
+/// Nested levels need to know where each vertex comes from and goes to, progressive ones each collapse.
+fn options(arguments: &LevelsArguments, target: Target) -> Options {
+    let LevelsArguments { engine, nested, progressive, .. } = arguments;
+    let options = engine.options(target);
+    if !nested {
+        return options;
+    }
+    Options {
+        placement: Placement::Existing,
+        track_origins: true,
+        track_sources: true,
+        track_collapses: progressive.is_some(),
+        ..options
+    }
+}
+
+fn write_nested(
+    original: &Mesh,
+    levels: &[Simplified],
+    arguments: &LevelsArguments,
+) -> Result<NestedReport, Failure> {
+    let path = path(arguments, "levels", "glb");
+    let nested = NestedLevels::from_levels(original, levels)?;
+    nested.write_glb(&path).map_err(Failure::Write)?;
+    Ok(NestedReport {
+        file: file_name(&path),
+        bytes: bytes(&path)?,
+        vertices: nested.levels().iter().map(|level| level.vertices).collect(),
+    })
+}
+
+fn write_progressive(
+    original: &Mesh,
+    levels: &[Simplified],
+    path: &Path,
+) -> Result<ProgressiveReport, Failure> {
+    let begin = Instant::now();
+    let progressive =
+        Progressive::from_levels(original, levels).map_err(|error| Failure::Unexpected(error.to_string()))?;
+    let seconds = begin.elapsed().as_secs_f64();
+    if progressive.marks().len() < levels.len() {
+        eprintln!(
+            "decimesh: warning: {} ends at level {}: from there on the topology changes, which is no matter of \
+             collapses; --keep-topology makes all levels so",
+            path.display(),
+            progressive.marks().len()
+        );
+    }
+    progressive.write(path).map_err(Failure::Write)?;
+    let bytes = bytes(path)?;
+    Ok(ProgressiveReport {
+        file: file_name(path),
+        bytes,
+        bytes_per_vertex: bytes as f64 / progressive.vertices().positions().len().max(1) as f64,
+        steps: progressive.steps(),
+        seconds,
+    })
+}
+
+/// Where something goes, after the input's name.
+fn path(arguments: &LevelsArguments, what: impl Display, extension: &str) -> PathBuf {
     let name = arguments.input.file_stem().unwrap_or_default().to_string_lossy();
-    let path = |level| arguments.directory.join(format!("{name}_{level}.{}", arguments.format));
+    arguments.directory.join(format!("{name}_{what}.{extension}"))
+}
+
+/// Where the levels go: `NAME_1.ply` and so on.
+fn paths(arguments: &LevelsArguments) -> Result<Vec<PathBuf>, Failure> {
+    let path = |level| path(arguments, level, &arguments.format);
     let paths: Vec<PathBuf> = (1..=arguments.count).map(path).collect();
     paths.iter().try_for_each(|path| check_format(path))?;
     Ok(paths)
@@ -85,7 +165,7 @@ fn measure(
     };
     Ok(LevelReport {
         level: number,
-        file: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        file: file_name(path),
         triangles: level.mesh.triangles().len(),
         vertices: level.mesh.positions().len(),
         stopped_by: report::stopped_by(level.stopped_by),
@@ -110,5 +190,13 @@ fn text(report: &LevelsReport, measured: bool) -> String {
     };
     let header = ["level", "triangles", "vertices", "estimated error", "measured RMS", "measured maximum"];
     let columns = if measured { 6 } else { 4 };
-    table(&header[..columns], 0, report.levels.iter().map(row))
+    let mut text = table(&header[..columns], 0, report.levels.iter().map(row));
+    if let Some(NestedReport { file, bytes, .. }) = &report.nested {
+        text += &format!("{file}: all levels on one vertex buffer, {} bytes\n", grouped(*bytes as usize));
+    }
+    if let Some(ProgressiveReport { file, bytes, bytes_per_vertex, steps, .. }) = &report.progressive {
+        let (bytes, steps) = (grouped(*bytes as usize), grouped(*steps));
+        text += &format!("{file}: {steps} steps, {bytes} bytes ({bytes_per_vertex:.1} a vertex)\n");
+    }
+    text
 }

@@ -8,6 +8,7 @@ mod failure;
 mod files;
 mod info;
 mod levels;
+mod play;
 mod progress;
 mod render;
 mod report;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         Command::Simplify(arguments) => simplify::run(arguments),
         Command::Levels(arguments) => levels::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Play(arguments) => play::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Demo(arguments) => demo::run(arguments),
     };

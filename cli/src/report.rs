@@ -46,6 +46,50 @@ pub(crate) struct LevelsReport {
     pub(crate) seconds: f64,
     pub(crate) peak_bytes: usize,
     pub(crate) levels: Vec<LevelReport>,
+    /// With `--nested`: the file of all levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) nested: Option<NestedReport>,
+    /// With `--progressive`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) progressive: Option<ProgressiveReport>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct NestedReport {
+    pub(crate) file: String,
+    pub(crate) bytes: u64,
+    /// For each level, from the input on, where its prefix of the vertices ends.
+    pub(crate) vertices: Vec<usize>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct ProgressiveReport {
+    pub(crate) file: String,
+    pub(crate) bytes: u64,
+    /// The file's bytes by the vertices of the finest level.
+    pub(crate) bytes_per_vertex: f64,
+    /// Splits from the coarsest level to the finest.
+    pub(crate) steps: usize,
+    /// Of making it from the collapses, without writing.
+    pub(crate) seconds: f64,
+}
+
+/// What `play --report` writes.
+#[derive(Debug, Serialize)]
+pub(crate) struct PlayReport {
+    pub(crate) triangles: usize,
+    pub(crate) vertices: usize,
+    /// Splits done since the coarsest level...
+    pub(crate) step: usize,
+    /// ...of so many that were read: no more than the level needs, where that is known beforehand.
+    pub(crate) steps: usize,
+    /// Of a numbered level, in units of the positions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) error: Option<f32>,
+    pub(crate) seconds_read: f64,
+    /// Of playing the splits.
+    pub(crate) seconds: f64,
+    pub(crate) seconds_write: f64,
 }
 
 #[derive(Debug, Serialize)]

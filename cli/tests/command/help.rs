@@ -2,7 +2,7 @@
 
 use crate::workbench::Workbench;
 
-const SUBCOMMANDS: [&str; 5] = ["simplify", "levels", "compare", "info", "demo"];
+const SUBCOMMANDS: [&str; 6] = ["simplify", "levels", "play", "compare", "info", "demo"];
 
 #[test]
 fn help_names_all_subcommands() {
@@ -15,7 +15,7 @@ fn help_names_all_subcommands() {
 #[test]
 fn help_documents_every_exit_code() {
     let bench = Workbench::new();
-    for name in ["", "simplify", "levels", "compare", "info", "demo"] {
+    for name in std::iter::once("").chain(SUBCOMMANDS) {
         let help = bench.run_well(&format!("{name} --help"));
         for code in 0..=6 {
             assert!(help.contains(&format!("\n  {code}  ")), "{code} is not in:\n{help}");

@@ -42,6 +42,56 @@ fn measuring_can_be_left_out() {
 }
 
 #[test]
+fn nested_levels_are_one_file_too() {
+    let bench = Workbench::with("ball.ply", &ball(40, 40));
+    let text = bench.run_well(
+        "levels ball.ply out --count 2 --ratio 0.3 --no-measure --nested --progressive out/ball.dpm --report r.json",
+    );
+    let names =
+        ["ball.ply", "out", "out/ball.dpm", "out/ball_1.ply", "out/ball_2.ply", "out/ball_levels.glb"];
+    assert_eq!(bench.files(), [&names[..], &["r.json"]].concat());
+    let report = bench.json("r.json");
+    let (nested, progressive) = (&report["nested"], &report["progressive"]);
+    assert!(text.contains("ball_levels.glb: ") && text.contains("ball.dpm: "), "{text}");
+    assert_eq!(nested["file"], "ball_levels.glb");
+    assert_eq!(count(nested, "bytes"), bench.bytes("out/ball_levels.glb").len());
+    assert_eq!(progressive["file"], "ball.dpm");
+    assert_eq!(count(progressive, "bytes"), bench.bytes("out/ball.dpm").len());
+    let ends: Vec<usize> =
+        nested["vertices"].as_array().unwrap().iter().map(|end| end.as_u64().unwrap() as usize).collect();
+    assert_eq!(ends.len(), 3);
+    assert!(ends.is_sorted_by(|finer, coarser| finer > coarser), "{ends:?}");
+    // No vertex is made: those of each level are the input's, bit for bit.
+    let bits = |position: &[f32; 3]| position.map(f32::to_bits);
+    let input: Vec<_> = bench.read("ball.ply").positions().iter().map(bits).collect();
+    assert_eq!(ends[0], input.len());
+    for (level, end) in (1..).zip(&ends[1..]) {
+        let mesh = bench.read(&format!("out/ball_{level}.ply"));
+        assert_eq!(mesh.positions().len(), *end);
+        assert!(mesh.positions().iter().all(|position| input.contains(&bits(position))));
+    }
+    // Any viewer that knows nothing of levels shows the input.
+    assert_eq!(bench.read("out/ball_levels.glb").triangles().len(), 3120);
+}
+
+#[test]
+fn a_progressive_file_ends_where_the_topology_changes() {
+    let wheel = decimesh::mesh::shapes::torus(24, 12);
+    let bench = Workbench::with("wheel.ply", &wheel);
+    let line =
+        "levels wheel.ply . --count 3 --ratio 0.1 --no-measure --nested --progressive wheel.dpm --quiet";
+    let outcome = bench.run(line);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(outcome.stderr.contains("warning: wheel.dpm ends at level 1"), "{outcome:?}");
+    bench.run_well("play wheel.dpm level.ply --level 1");
+    bench.run_badly(
+        "play wheel.dpm level.ply --level 3",
+        5,
+        "there is no level 3: the file has levels 0 to 2",
+    );
+}
+
+#[test]
 fn quiet_is_silent() {
     let bench = Workbench::with("ball.ply", &ball(20, 20));
     let outcome = bench.run("levels ball.ply out --count 2 --ratio 0.5 --quiet");
@@ -62,6 +112,9 @@ fn failures_have_their_codes_and_change_nothing() {
         "cannot write out/ball_1.xyz",
     );
     bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --report nowhere/r.json", 4, "nowhere/r.json");
+    bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --progressive b.dpm", 2, "--nested");
+    let line = "levels ball.ply out --ratio 0.5 --count 2 --nested --progressive nowhere/b.dpm";
+    bench.run_badly(line, 4, "nowhere/b.dpm");
     for ratio in ["0", "1", "-0.5", "nan"] {
         bench.run_badly(&format!("levels ball.ply out --ratio {ratio} --count 2"), 5, "ratio");
     }

@@ -5,5 +5,6 @@ mod demo;
 mod help;
 mod info;
 mod levels;
+mod play;
 mod simplify;
 mod workbench;
