@@ -101,17 +101,7 @@ mod tests {
     fn simplified(mesh: Mesh, topology_changed: bool) -> Simplified {
         let (stopped_by, error, locked, passes) = (StoppedBy::Target, 0.0, 0, 1);
         let (origins, sources, collapses) = (None, None, None);
-        Simplified {
-            mesh,
-            stopped_by,
-            error,
-            locked,
-            topology_changed,
-            origins,
-            sources,
-            collapses,
-            passes,
-        }
+        Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, collapses, passes }
     }
 
     fn mesh(triangles: &[[u32; 3]]) -> Mesh {

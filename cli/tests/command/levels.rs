@@ -85,9 +85,9 @@ fn a_progressive_file_ends_where_the_topology_changes() {
     assert!(outcome.stderr.contains("warning: wheel.dpm ends at level 1"), "{outcome:?}");
     bench.run_well("play wheel.dpm level.ply --level 1");
     bench.run_badly(
-        "play wheel.dpm level.ply --level 3",
+        "play wheel.dpm level.ply --level 2",
         5,
-        "there is no level 3: the file has levels 0 to 2",
+        "there is no level 2: the file has levels 0 to 1",
     );
 }
 
