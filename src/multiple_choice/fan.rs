@@ -90,12 +90,16 @@ impl Fan {
         [before, (place < self.faces()).then_some(place)]
     }
 
-    /// Whether a face would fold over, or come to nothing, if the vertex went to the neighbour `place`.
+    /// Whether a face would fold over, or come to nothing, if `vertex`, whose fan this is, went to the
+    /// neighbour `place`.
     ///
-    /// A face without area has no side to be turned from, and does not count.
-    pub(super) fn folds(&self, place: usize) -> bool {
+    /// No face turns by a right angle, and none comes to lie against `facing`, the input's normals at its
+    /// corners: small turns, one after the other, would else turn it to its back. A face without area has no
+    /// side to be turned from, and does not count.
+    pub(super) fn folds(&self, vertex: u32, place: usize, facing: &[Vec3A]) -> bool {
         let offset = self.spokes[place];
         let beside = self.beside(place);
+        let [from, into] = [vertex, self.rim[place]].map(|corner| facing[corner as usize]);
         self.crosses.iter().enumerate().any(|(face, &before)| {
             if beside.contains(&Some(face)) || before.length_squared() <= 0.0 {
                 return false;
@@ -103,7 +107,12 @@ impl Fan {
             let (next, previous) = (self.spokes[face], self.spokes[face + 1]);
             let after = before + offset.cross(next - previous);
             let cosine = before.dot(after);
-            cosine <= 0.0 || cosine.is_nan() || is_line(after.length_squared(), next, previous, offset)
+            if cosine <= 0.0 || cosine.is_nan() || is_line(after.length_squared(), next, previous, offset) {
+                return true;
+            }
+            let rim = facing[self.rim[face] as usize] + facing[self.rim[face + 1] as usize];
+            // What lies so in the input may stay so: it would else never go.
+            after.dot(rim + into) < 0.0 && before.dot(rim + from) >= 0.0
         })
     }
 }

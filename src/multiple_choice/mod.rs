@@ -6,7 +6,8 @@
 //! of the result names vertices of the input, so that all levels of detail share one vertex buffer.
 //!
 //! What the paper leaves open is said where it is decided: the border ([`Cost`]), the link condition and
-//! vertices that have no legal collapse (left out until something around them changes). Other costs and
+//! vertices that have no legal collapse (left out until something around them changes), and what it is for a
+//! face to fold over: to turn by a right angle at once, or in the end against the input's normals. Other costs and
 //! selections stand beside the paper's, so that they can be compared: `examples/multiple_choice` does, and
 //! `docs/multiple-choice.md` has what it measured.
 //! The visual cost makes 2.3 to 3.3 times the error of [`simplify`](crate::simplify) with
@@ -43,7 +44,8 @@ pub struct NoSuchVertex {
 
 /// A mesh that loses one vertex after another.
 ///
-/// Topology is kept, no face is folded over, and no vertex is moved. Where the mesh has attributes,
+/// Topology is kept, no vertex is moved, and no face is flipped: none turns by a right angle at a collapse,
+/// nor comes to lie against the mean of the input's normals at its corners. Where the mesh has attributes,
 /// vertices that share their place with another stay, so that no seam opens. The same mesh, cost and
 /// selection give the same collapses, byte for byte, on every machine.
 ///
@@ -69,8 +71,8 @@ pub struct Decimation {
 }
 
 impl Decimation {
-    /// Evaluates every vertex of `mesh`. Linear in the triangles; about 100 bytes a vertex, its points and
-    /// faces included.
+    /// Evaluates every vertex of `mesh`. Linear in the triangles; about 115 bytes a vertex, its points
+    /// and faces included.
     pub fn new(mesh: &Mesh, cost: Cost, selection: Selection) -> Self {
         Self::start(State::new(mesh, cost), selection)
     }

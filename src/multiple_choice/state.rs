@@ -34,6 +34,8 @@ const NOWHERE: Choice = Choice { cost: f32::INFINITY, target: u32::MAX };
 pub(super) struct State {
     /// Positions, scaled to edges of about 1.
     points: Vec<Vec3A>,
+    /// The input's normals, of unit length; zero where it has none.
+    facing: Vec<Vec3A>,
     pub(super) faces: Vec<[u32; 3]>,
     /// Faces that live.
     pub(super) alive: usize,
@@ -48,6 +50,18 @@ pub(super) struct State {
     around_target: Vec<u32>,
 }
 
+/// For each vertex the mean of its faces' normals, weighted by their areas.
+fn normals(points: &[Vec3A], faces: &[[u32; 3]]) -> Vec<Vec3A> {
+    let mut normals = vec![Vec3A::ZERO; points.len()];
+    for face in faces {
+        let [a, b, c] = face.map(|vertex| points[vertex as usize]);
+        let cross = (b - a).cross(c - a);
+        face.iter().for_each(|&vertex| normals[vertex as usize] += cross);
+    }
+    normals.iter_mut().for_each(|normal| *normal = normal.normalize_or_zero());
+    normals
+}
+
 impl State {
     /// A state in which no vertex has made its choice yet.
     pub(super) fn new(mesh: &Mesh, cost: Cost) -> Self {
@@ -56,8 +70,10 @@ impl State {
         let faces: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(is_face).collect();
         let mut flags = vec![flag::DIRTY; vertices];
         seams(mesh).into_iter().for_each(|vertex| flags[vertex as usize] |= flag::LOCKED);
+        let points: Vec<Vec3A> = mesh.positions().iter().map(|&point| Vec3A::from(point) * scale).collect();
         Self {
-            points: mesh.positions().iter().map(|&point| Vec3A::from(point) * scale).collect(),
+            facing: normals(&points, &faces),
+            points,
             alive: faces.len(),
             corners: Corners::new(vertices, &faces),
             faces,
@@ -107,7 +123,9 @@ impl State {
             let order = |&place: &usize| (costs[place].to_bits(), self.fan.rim[place]);
             let cheapest = (0..costs.len()).min_by_key(order);
             let Some(place) = cheapest.filter(|&place| costs[place] < f32::INFINITY) else { break };
-            if !self.fan.folds(place) && (!keeping_topology || self.links_allow(vertex, place)) {
+            if !self.fan.folds(vertex, place, &self.facing)
+                && (!keeping_topology || self.links_allow(vertex, place))
+            {
                 self.choices[vertex as usize] = Choice { cost: costs[place], target: self.fan.rim[place] };
                 break;
             }
@@ -128,12 +146,15 @@ impl State {
         for &corner in of_target {
             let (next, previous) = neighbours(&self.faces, corner);
             shared += usize::from(next == vertex || previous == vertex);
-            around.extend([next, previous]);
+            // There are few: to look through them is faster than to sort them.
+            for neighbour in [next, previous] {
+                if !around.contains(&neighbour) {
+                    around.push(neighbour);
+                }
+            }
         }
-        around.sort_unstable();
-        around.dedup();
         let rim = self.fan.neighbours();
-        let common = rim.iter().filter(|vertex| around.binary_search(vertex).is_ok()).count();
+        let common = rim.iter().filter(|vertex| around.contains(vertex)).count();
         let beside = self.fan.beside(place).iter().flatten().count();
         // Both counts have the other end in them.
         let others = (rim.len() - 1) + (around.len() - 1) - common;
@@ -149,7 +170,7 @@ impl State {
     }
 
     /// Executes the choice of `vertex`, if it keeps the topology: where it went. `touched` is filled with
-    /// the vertices whose surroundings have changed, in ascending order.
+    /// the vertices whose surroundings have changed, each once.
     pub(super) fn collapse(&mut self, vertex: u32, touched: &mut Vec<u32>) -> Option<u32> {
         let target = self.choices[vertex as usize].target;
         let gathered = self.gather(vertex);
@@ -158,12 +179,10 @@ impl State {
         if !self.links_allow(vertex, place) {
             return None;
         }
+        let around = &self.around_target;
         touched.clear();
-        touched.extend(&self.around_target);
-        touched.extend(self.fan.neighbours());
-        touched.retain(|&other| other != vertex);
-        touched.sort_unstable();
-        touched.dedup();
+        touched.extend(around.iter().filter(|&&other| other != vertex));
+        touched.extend(self.fan.neighbours().iter().filter(|other| !around.contains(other)));
         for &corner in self.corners.of(vertex)? {
             let (next, previous) = neighbours(&self.faces, corner);
             let face = &mut self.faces[(corner >> 2) as usize];

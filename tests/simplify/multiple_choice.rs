@@ -158,6 +158,28 @@ fn seeds_matter_and_nothing_else_does() {
 }
 
 #[test]
+fn no_face_looks_the_wrong_way_in_the_end() {
+    for mesh in [shapes::bumpy_sphere(20, 1), shapes::torus(40, 30), shapes::cube(12)] {
+        let mut outward = vec![glam::DVec3::ZERO; mesh.positions().len()];
+        for &triangle in mesh.triangles() {
+            triangle.iter().for_each(|&vertex| outward[vertex as usize] += normal(&mesh, triangle));
+        }
+        for cost in COSTS {
+            for selection in selections() {
+                let mut decimation = Decimation::new(&mesh, cost, selection);
+                assert!(decimation.reduce_to(100, &mut Monitor::silent()).unwrap());
+                for triangle in decimation.triangles() {
+                    let facing = triangle.map(|vertex| outward[vertex as usize].normalize());
+                    let cosine = normal(&mesh, triangle).normalize().dot(facing.iter().sum());
+                    // The engine calculates in single precision.
+                    assert!(cosine > -1e-4, "{cost:?} {selection:?}: {triangle:?} {cosine}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_vertex_that_is_not_there_cannot_be_locked() {
     let plane = shapes::plane(3);
     let lock = |locked: &[u32]| {
