@@ -5,12 +5,12 @@
 //! the cheapest goes; what a collapse has changed is evaluated anew only when it is drawn). Every triangle
 //! of the result names vertices of the input, so that all levels of detail share one vertex buffer.
 //!
-//! What the paper leaves open is said where it is decided: the border ([`Cost`]), the link condition and
-//! vertices that have no legal collapse (left out until something around them changes), and what it is for a
-//! face to fold over: to turn by a right angle at once, or in the end against the input's normals. Other costs and
-//! selections stand beside the paper's, so that they can be compared: `examples/multiple_choice` does, and
-//! `docs/multiple-choice.md` has what it measured.
-//! The visual cost makes 2.3 to 3.3 times the error of [`simplify`](crate::simplify) with
+//! What the paper leaves open is said where it is decided: the border ([`Cost`]), the link condition,
+//! vertices that have no legal collapse (left out until something around them changes), and when a face
+//! folds over (when it turns by a right angle at once, or against the input's normals in the end). Other
+//! costs and selections stand beside the paper's, so that they can be compared: `examples/multiple_choice`
+//! does, and `docs/multiple-choice.md` has what it measured.
+//! The visual cost makes 2.5 to 3.3 times the error of [`simplify`](crate::simplify) with
 //! [`Placement::Existing`](crate::Placement::Existing) on the Stanford bunny, and takes longer: a program
 //! that only wants the result should use that.
 
