@@ -100,7 +100,8 @@ proptest! {
         let mut decimation = Decimation::new(&mesh, cost, selection);
         decimation.reduce_to(0, &mut Monitor::silent()).unwrap();
         let mut triangles: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(is_face).collect();
-        for (source, target) in decimation.collapses().iter().map(|collapse| (collapse.source, collapse.target)) {
+        for collapse in decimation.collapses() {
+            let (source, target) = (collapse.source, collapse.target);
             for &triangle in triangles.iter().filter(|triangle| triangle.contains(&source)) {
                 let after = triangle.map(|vertex| if vertex == source { target } else { vertex });
                 if is_face(&after) {
