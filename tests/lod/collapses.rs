@@ -96,7 +96,8 @@ pub(crate) fn seamed(cells: usize) -> Mesh {
     attributed(Mesh::new(positions, triangles).unwrap(), 5)
 }
 
-fn mesh() -> impl Strategy<Value = Mesh> {
+/// Torn, dirty and seamed meshes, with attributes and without.
+pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
     let mesh = prop_oneof![3 => dirty_mesh(), 2 => torn_mesh(), 1 => (2usize..7).prop_map(seamed)];
     (mesh, any::<bool>(), any::<u64>())
         .prop_map(|(mesh, bare, seed)| if bare { mesh } else { attributed(mesh, seed) })

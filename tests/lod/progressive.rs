@@ -5,10 +5,10 @@ use std::sync::Arc;
 use decimesh::hqms::HalfEdge;
 use decimesh::lod::{Mark, Player, Progressive, ProgressiveError};
 use decimesh::mesh::shapes;
-use decimesh::{Mesh, Monitor, Options, Placement, Target, Topology, build_levels};
+use decimesh::{Mesh, Monitor, Options, Placement, Selection, Target, Topology, build_levels};
 use proptest::prelude::*;
 
-use crate::collapses::{Case, case, seamed};
+use crate::collapses::{Case, case, mesh, seamed};
 
 fn progressive(case: &Case) -> Progressive {
     Progressive::new(&case.mesh, &case.collapses).unwrap()
@@ -72,6 +72,12 @@ proptest! {
     }
 
     #[test]
+    fn levels_of_any_chain_are_marked(mesh in mesh(), paper in any::<bool>()) {
+        let papers = Selection::ReplacementSelection { records: 15 };
+        check_chain(&mesh, if paper { papers } else { Selection::SampledThreshold });
+    }
+
+    #[test]
     fn vertices_come_in_the_order_in_which_they_go(case in case()) {
         let progressive = progressive(&case);
         let order = progressive.order().unwrap();
@@ -112,43 +118,50 @@ proptest! {
 }
 
 /// A chain's levels are there, and say where.
+fn check_chain(mesh: &Mesh, selection: Selection) {
+    let targets = [0.5, 0.2, 0.05].map(Target::Ratio);
+    let options = Options { selection, ..Options::new(targets[0]) };
+    let progressive = Progressive::build(mesh, &targets, &options, &mut Monitor::silent()).unwrap();
+    check(&progressive);
+    let tracked = Options {
+        placement: Placement::Existing,
+        topology: Topology::Keep,
+        track_sources: true,
+        ..options.clone()
+    };
+    let levels = build_levels(mesh, &targets, &tracked, &mut Monitor::silent()).unwrap();
+    assert_eq!(progressive.marks().len(), levels.len());
+    for (mark, level) in progressive.marks().iter().zip(&levels) {
+        assert_eq!(mark.error, level.error);
+        let sources = level.sources.as_ref().unwrap();
+        let corners = level.mesh.triangles().iter();
+        let expected = corners.map(|triangle| triangle.map(|vertex| sources[vertex as usize])).collect();
+        let triangles = named(&progressive, &progressive.triangles_at(mark.step));
+        assert_eq!(surface(mesh, triangles), surface(mesh, expected));
+    }
+    let error = Progressive::from_levels(mesh, &levels).unwrap_err();
+    assert_eq!(error, ProgressiveError::NotTracked);
+}
+
+/// The triangles in an order of their own, whatever corner they begin with, but for those with two corners
+/// at one place: they are no part of the surface, and an engine need not drop them.
+fn surface(mesh: &Mesh, mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    triangles.retain(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions()[vertex as usize]);
+        a != b && b != c && c != a
+    });
+    triangles.iter_mut().for_each(|triangle| {
+        let least = (0..3).min_by_key(|&corner| triangle[corner]).unwrap();
+        triangle.rotate_left(least);
+    });
+    triangles.sort_unstable();
+    triangles
+}
+
 #[test]
 fn levels_of_a_chain_are_marked() {
-    let targets = [0.5, 0.2, 0.05].map(Target::Ratio);
-    let options = Options::new(targets[0]);
     for mesh in [shapes::bumpy_sphere(20, 1), shapes::torus(30, 15), shapes::plane(20), seamed(20)] {
-        let progressive = Progressive::build(&mesh, &targets, &options, &mut Monitor::silent()).unwrap();
-        check(&progressive);
-        let tracked = Options {
-            placement: Placement::Existing,
-            topology: Topology::Keep,
-            track_sources: true,
-            ..options.clone()
-        };
-        let levels = build_levels(&mesh, &targets, &tracked, &mut Monitor::silent()).unwrap();
-        assert_eq!(progressive.marks().len(), levels.len());
-        for (mark, level) in progressive.marks().iter().zip(&levels) {
-            assert_eq!(mark.error, level.error);
-            let sources = level.sources.as_ref().unwrap();
-            let mut expected: Vec<_> = level
-                .mesh
-                .triangles()
-                .iter()
-                .map(|triangle| triangle.map(|vertex| sources[vertex as usize]))
-                .collect();
-            let mut triangles = named(&progressive, &progressive.triangles_at(mark.step));
-            // Where a triangle begins is not a matter of its surface.
-            for list in [&mut expected, &mut triangles] {
-                list.iter_mut().for_each(|triangle| {
-                    let least = (0..3).min_by_key(|&corner| triangle[corner]).unwrap();
-                    triangle.rotate_left(least);
-                });
-                list.sort_unstable();
-            }
-            assert_eq!(triangles, expected);
-        }
-        let error = Progressive::from_levels(&mesh, &levels).unwrap_err();
-        assert_eq!(error, ProgressiveError::NotTracked);
+        check_chain(&mesh, Selection::SampledThreshold);
     }
 }
 
