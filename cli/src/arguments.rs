@@ -289,6 +289,9 @@ pub(crate) struct CompareArguments {
     /// Seed of the samples: the same seed gives the same numbers.
     #[arg(long, value_name = "SEED")]
     pub(crate) seed: Option<u64>,
+    /// Say too what the maximum over all points, not only over samples, is guaranteed to lie between.
+    #[arg(long)]
+    pub(crate) bound: bool,
     /// Threads to use; 0: all that the machine has. The numbers do not depend on it.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,

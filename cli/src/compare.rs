@@ -1,6 +1,6 @@
 //! `decimesh compare`: the measured distance between two surfaces.
 
-use decimesh::deviation::{Deviation, Sampling, deviation};
+use decimesh::deviation::{Bound, BoundOptions, Deviation, Sampling, bound, deviation};
 use serde::Serialize;
 
 use crate::arguments::CompareArguments;
@@ -21,7 +21,11 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let progress = Progress::new(arguments.quiet);
     let measured =
         progress.during("measuring", |monitor| deviation(&reference, &other, &sampling, monitor))?;
-    let report = CompareReport::new(&measured);
+    let bounds = arguments.bound.then(|| {
+        let options = BoundOptions { threads: arguments.threads, ..BoundOptions::default() };
+        progress.during("bounding", |monitor| bound(&reference, &other, &options, monitor))
+    });
+    let report = CompareReport::new(&measured, bounds.transpose()?);
     report::print(&if arguments.json { report::json(&report)? } else { report.text() })
 }
 
@@ -36,10 +40,27 @@ struct CompareReport {
     mean_rel: f64,
     max_rel: f64,
     normal_rms_degrees: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bound: Option<BoundReport>,
+}
+
+/// What `compare --bound` adds: no point is farther away than `upper`, and some are as far as `lower`.
+#[derive(Debug, Serialize)]
+struct BoundReport {
+    lower: f64,
+    upper: f64,
+    lower_rel: f64,
+    upper_rel: f64,
 }
 
 impl CompareReport {
-    fn new(measured: &Deviation) -> Self {
+    fn new(measured: &Deviation, bound: Option<Bound>) -> Self {
+        let bound = bound.map(|bound| BoundReport {
+            lower: bound.lower,
+            upper: bound.upper,
+            lower_rel: bound.lower_rel(),
+            upper_rel: bound.upper_rel(),
+        });
         Self {
             rms: measured.rms,
             mean: measured.mean,
@@ -48,17 +69,22 @@ impl CompareReport {
             mean_rel: measured.mean_rel(),
             max_rel: measured.max_rel(),
             normal_rms_degrees: measured.normal_rms_degrees,
+            bound,
         }
     }
 
     fn text(&self) -> String {
         let row = |name: &str, value, share| vec![name.to_owned(), significant(value), percent(share)];
-        let rows = [
+        let mut rows = vec![
             row("RMS", self.rms, self.rms_rel),
             row("mean", self.mean, self.mean_rel),
             row("maximum", self.max, self.max_rel),
-            vec!["normals (RMS)".to_owned(), format!("{}°", significant(self.normal_rms_degrees))],
         ];
+        if let Some(bound) = &self.bound {
+            rows.push(row("at least", bound.lower, bound.lower_rel));
+            rows.push(row("at most", bound.upper, bound.upper_rel));
+        }
+        rows.push(vec!["normals (RMS)".to_owned(), format!("{}°", significant(self.normal_rms_degrees))]);
         table(&["", "distance", "of the diagonal"], 1, rows)
     }
 }

@@ -128,6 +128,7 @@ impl From<DeviationError> for Failure {
     fn from(error: DeviationError) -> Self {
         let status = match error {
             DeviationError::Empty { .. } => DECIMESH_ERROR_EMPTY,
+            DeviationError::InvalidTolerance(_) => DECIMESH_ERROR_OPTION,
             DeviationError::Threads(_) => DECIMESH_ERROR_THREADS,
             DeviationError::Cancelled(_) => DECIMESH_ERROR_CANCELLED,
         };

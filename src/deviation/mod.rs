@@ -1,14 +1,17 @@
 //! Measured distance between two surfaces: RMS, mean and maximum, in both directions, and how far
-//! their normals turn away from each other.
+//! their normals turn away from each other; and a bound on the maximum that is guaranteed ([`bound()`]).
 //!
 //! The measure is that of Metro (Cignoni, Rocchini and Scopigno, "Metro: measuring error on
 //! simplified surfaces", Computer Graphics Forum 17(2), 1998): points on one surface, each to the
 //! exactly nearest point of the other.
 
+mod bound;
 mod directed;
 mod sampling;
 mod surface;
 mod triangle;
+
+pub use bound::{Bound, BoundOptions, bound};
 
 use directed::{Direction, Totals};
 use surface::Surface;
@@ -43,7 +46,8 @@ pub struct Directed {
     /// Mean distance over the samples.
     pub mean: f64,
     /// Largest distance over the samples and all vertices that a triangle uses. This is at most the
-    /// directed Hausdorff distance, and approaches it as the samples grow dense.
+    /// directed Hausdorff distance, and approaches it as the samples grow dense; [`bound()`] bounds it
+    /// from above.
     pub max: f64,
 }
 
@@ -74,24 +78,24 @@ pub struct Deviation {
 impl Deviation {
     /// [`rms`](Self::rms) as a fraction of the diagonal.
     pub fn rms_rel(&self) -> f64 {
-        self.relative(self.rms)
+        relative(self.rms, self.diagonal)
     }
 
     /// [`mean`](Self::mean) as a fraction of the diagonal.
     pub fn mean_rel(&self) -> f64 {
-        self.relative(self.mean)
+        relative(self.mean, self.diagonal)
     }
 
     /// [`max`](Self::max) as a fraction of the diagonal.
     pub fn max_rel(&self) -> f64 {
-        self.relative(self.max)
+        relative(self.max, self.diagonal)
     }
+}
 
-    /// A first mesh shrunk to one point has no diagonal: then any distance is infinitely large, but
-    /// none is still none.
-    fn relative(&self, distance: f64) -> f64 {
-        if distance > 0.0 { distance / self.diagonal } else { 0.0 }
-    }
+/// A first mesh shrunk to one point has no diagonal: then any distance is infinitely large, but none is
+/// still none.
+fn relative(distance: f64, diagonal: f64) -> f64 {
+    if distance > 0.0 { distance / diagonal } else { 0.0 }
 }
 
 /// Why a deviation could not be measured.
@@ -104,6 +108,9 @@ pub enum DeviationError {
         /// `"first"` or `"second"`.
         mesh: &'static str,
     },
+    /// A tolerance is negative, infinite or not a number.
+    #[error("the tolerance of a bound must be finite and not negative, not {0}")]
+    InvalidTolerance(f64),
     /// The threads asked for could not be started.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -134,11 +141,7 @@ pub fn deviation(
     sampling: &Sampling,
     monitor: &mut Monitor,
 ) -> Result<Deviation, DeviationError> {
-    for (mesh, name) in [(a, "first"), (b, "second")] {
-        if mesh.triangles().is_empty() {
-            return Err(DeviationError::Empty { mesh: name });
-        }
-    }
+    both_have_triangles(a, b)?;
     let workers = Workers::new(sampling.threads)?;
     monitor.report(0.0)?;
     let [a, b] = workers.both([a, b], Surface::new);
@@ -155,6 +158,13 @@ pub fn deviation(
     let forward = forward.measure(&workers, &mut advance)?;
     let backward = backward.measure(&workers, &mut advance)?;
     Ok(combine(a.diagonal(), forward, backward))
+}
+
+fn both_have_triangles(a: &Mesh, b: &Mesh) -> Result<(), DeviationError> {
+    match [(a, "first"), (b, "second")].into_iter().find(|(mesh, _)| mesh.triangles().is_empty()) {
+        Some((_, mesh)) => Err(DeviationError::Empty { mesh }),
+        None => Ok(()),
+    }
 }
 
 /// Share of the time that building the trees takes, roughly.

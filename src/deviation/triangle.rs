@@ -16,25 +16,58 @@ pub(super) fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
 
 /// Squared distance from `point` to the triangle, which may be degenerate.
 pub(super) fn distance_squared(point: DVec3, corners: [DVec3; 3]) -> f64 {
-    let [a, b, c] = corners;
-    if let Some(normal) = normal(corners) {
-        let from_a = point - a;
-        let area = normal.length_squared();
-        let towards_c = (b - a).cross(from_a).dot(normal);
-        let towards_b = from_a.cross(c - a).dot(normal);
-        if towards_c >= 0.0 && towards_b >= 0.0 && towards_c + towards_b <= area {
-            let height = from_a.dot(normal);
-            return height * height / area;
-        }
+    match foot(point, corners) {
+        Some(foot) => foot.height_squared,
+        None => nearest_on_edges(point, corners).1,
     }
-    segment(point, a, b).min(segment(point, b, c)).min(segment(point, c, a))
 }
 
-fn segment(point: DVec3, start: DVec3, end: DVec3) -> f64 {
+/// The point of the triangle nearest to `point`. Where rounding misleads, another point of the triangle,
+/// but always one of it, to the last digits.
+pub(super) fn nearest_point(point: DVec3, corners: [DVec3; 3]) -> DVec3 {
+    match foot(point, corners) {
+        Some(Foot { towards: [b, c], .. }) => {
+            corners[0] + (corners[1] - corners[0]) * b + (corners[2] - corners[0]) * c
+        }
+        None => nearest_on_edges(point, corners).0,
+    }
+}
+
+/// Where a point is over the inside of a triangle.
+struct Foot {
+    /// Weights of the second and the third corner.
+    towards: [f64; 2],
+    height_squared: f64,
+}
+
+/// `None` where the nearest point is on an edge.
+fn foot(point: DVec3, corners: [DVec3; 3]) -> Option<Foot> {
+    let [a, b, c] = corners;
+    let normal = normal(corners)?;
+    let from_a = point - a;
+    let area = normal.length_squared();
+    let towards_c = (b - a).cross(from_a).dot(normal);
+    let towards_b = from_a.cross(c - a).dot(normal);
+    (towards_c >= 0.0 && towards_b >= 0.0 && towards_c + towards_b <= area).then(|| {
+        let height = from_a.dot(normal);
+        Foot { towards: [towards_b / area, towards_c / area], height_squared: height * height / area }
+    })
+}
+
+/// The nearest point on the edges, and its squared distance.
+fn nearest_on_edges(point: DVec3, [a, b, c]: [DVec3; 3]) -> (DVec3, f64) {
+    let on_each = [[a, b], [b, c], [c, a]].map(|[start, end]| {
+        let nearest = on_segment(point, start, end);
+        (nearest, point.distance_squared(nearest))
+    });
+    on_each.into_iter().fold(on_each[0], |best, other| if other.1 < best.1 { other } else { best })
+}
+
+fn on_segment(point: DVec3, start: DVec3, end: DVec3) -> DVec3 {
     let along = end - start;
     let length = along.length_squared();
     let at = if length > 0.0 { ((point - start).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    point.distance_squared(start + along * at)
+    start + along * at
 }
 
 #[cfg(test)]

@@ -33,6 +33,20 @@ fn parallel_sheets_are_at_their_distance() {
 }
 
 #[test]
+fn a_bound_is_printed_where_it_is_asked_for() {
+    let bench = Workbench::with("low.ply", &sheet(3, 0.0));
+    bench.write("high.ply", &sheet(5, 0.25));
+    let line = "compare low.ply high.ply --samples 1000 --bound";
+    let value: serde_json::Value = serde_json::from_str(&bench.run_well(&format!("{line} --json"))).unwrap();
+    assert_eq!(value.as_object().unwrap().len(), FIELDS.len() + 1, "{value}");
+    let (lower, upper) = (number(&value["bound"], "lower"), number(&value["bound"], "upper"));
+    assert!((lower - 0.25).abs() < 1e-6 && (0.25..0.2526).contains(&upper), "{value}");
+    assert!((number(&value["bound"], "upper_rel") - upper / 2.0_f64.sqrt()).abs() < 1e-6, "{value}");
+    let text = bench.run_well(line);
+    assert!(text.contains("at least") && text.contains("at most"), "{text}");
+}
+
+#[test]
 fn table_is_for_people() {
     let bench = Workbench::with("low.ply", &sheet(3, 0.0));
     bench.write("high.ply", &sheet(5, 0.25));
