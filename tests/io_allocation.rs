@@ -6,6 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use decimesh::io::{Format, read_from_slice};
+use decimesh::lod::{Extent, Progressive};
 
 struct Counting;
 
@@ -82,10 +83,31 @@ fn lying_headers_get_no_memory() {
         gltf(r#""count": 1"#, r#""buffers": [{"byteLength": 4000000000, "uri": "data:;base64,AAAA"}]"#),
     ];
     for (format, bytes) in files {
-        let before = LIVE.load(Relaxed);
-        PEAK.store(before, Relaxed);
-        let error = read_from_slice(&bytes, format).expect_err("more is promised than is there");
-        let used = PEAK.load(Relaxed) - before;
+        let (used, error) = measured(|| read_from_slice(&bytes, format).map(drop));
         assert!(used < 64 << 10, "{used} bytes for {} bytes of {format:?}: {error}", bytes.len());
     }
+
+    // Version, attributes, vertices and triangles of the finest and of the coarsest level, steps, marks.
+    let (many, most) = (4_000_000_000, 1 << 29);
+    for numbers in [
+        [1, 7, many, most, 3, 1, many - 3, 0],
+        [1, 7, many, most, many, 1, 0, 0],
+        [1, 0, many, most, 3, most, many - 3, 0],
+        [1, 0, many, most, 3, 1, many - 3, many],
+    ] {
+        let bytes =
+            [&b"\x89DPM\r\n\x1a\n"[..], numbers.map(u32::to_le_bytes).as_flattened(), &[0; 99]].concat();
+        for extent in [Extent::Whole, Extent::Triangles(1 << 20)] {
+            let (used, error) = measured(|| Progressive::read_from_slice(&bytes, extent).map(drop));
+            assert!(used < 64 << 10, "{used} bytes for {numbers:?}: {error}");
+        }
+    }
+}
+
+/// The most memory that `read` has at any time, and why it fails.
+fn measured<E>(read: impl FnOnce() -> Result<(), E>) -> (usize, E) {
+    let before = LIVE.load(Relaxed);
+    PEAK.store(before, Relaxed);
+    let error = read().err().expect("more is promised than is there");
+    (PEAK.load(Relaxed) - before, error)
 }

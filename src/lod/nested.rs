@@ -1,8 +1,15 @@
 //! A few levels of detail, each an index buffer into a prefix of one vertex buffer.
 
+#[cfg(feature = "deviation")]
+use std::ops::ControlFlow;
+
+#[cfg(feature = "deviation")]
+use crate::deviation::{Bound, BoundOptions, DeviationError, bound};
 use crate::hqms::{Options, Placement, Simplified, SimplifyError, StoppedBy, Target, build_levels};
 use crate::mesh::topology::is_face;
 use crate::mesh::{Mesh, select};
+#[cfg(feature = "deviation")]
+use crate::monitor::Cancelled;
 use crate::monitor::Monitor;
 
 /// A chain of levels from fine to coarse. Level 0 is the input itself; each level names vertices of one
@@ -36,8 +43,8 @@ pub struct NestedLevels {
 pub struct Level {
     /// Its vertices are those before this one in the buffer.
     pub vertices: usize,
-    /// Largest distance from the input, in units of the positions: estimated, or a bound where the levels
-    /// were certified. Never less than that of the level before; 0 for the first.
+    /// Largest distance from the input, in units of the positions: estimated, or a bound once the levels
+    /// are [certified](NestedLevels::certify). Never less than that of the level before; 0 for the first.
     pub error: f32,
     /// Why it is as large as it is.
     pub stopped_by: StoppedBy,
@@ -153,6 +160,37 @@ impl NestedLevels {
         self.mesh.prefix(self.levels[level].vertices, self.triangles(level).to_vec())
     }
 
+    /// Puts a guaranteed bound in the place of each level's estimated error: no point of the level is farther
+    /// from the input than that, and none of the input from the level. Answers what was found for each level
+    /// after the first.
+    ///
+    /// One call of [`bound`] a level, which takes far longer than [`build`](Self::build). Fails as that does,
+    /// also for a level without triangles; then nothing has changed.
+    #[cfg(feature = "deviation")]
+    pub fn certify(
+        &mut self,
+        options: &BoundOptions,
+        monitor: &mut Monitor,
+    ) -> Result<Vec<Bound>, DeviationError> {
+        let coarser = self.levels.len() - 1;
+        let share = |level: usize| level as f32 / coarser as f32;
+        let mut bounds = Vec::with_capacity(coarser);
+        for level in 1..=coarser {
+            let (from, to) = (share(level - 1), share(level));
+            let mut part = Monitor::new(|done| match monitor.report(from + (to - from) * done) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(Cancelled) => ControlFlow::Break(()),
+            });
+            bounds.push(bound(&self.mesh, &self.level_mesh(level), options, &mut part)?);
+        }
+        let mut largest = 0.0f32;
+        for (level, found) in self.levels[1..].iter_mut().zip(&bounds) {
+            largest = largest.max(not_below(found.upper));
+            level.error = largest;
+        }
+        Ok(bounds)
+    }
+
     /// Writes all levels to the file at `path` as GLB, whole or not at all, as
     /// [`io::write`](crate::io::write) does.
     ///
@@ -201,6 +239,13 @@ impl<'a> Tracked<'a> {
         }
         Ok(Self { result, origins, sources })
     }
+}
+
+/// The least `f32` that is not below `value`, or the largest there is.
+#[cfg(feature = "deviation")]
+fn not_below(value: f64) -> f32 {
+    let near = value as f32;
+    if f64::from(near) < value { near.next_up() } else { near }.min(f32::MAX)
 }
 
 /// For each vertex of the input how many levels, from the finest on, it is needed for: up to the last one

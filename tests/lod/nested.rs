@@ -161,3 +161,37 @@ fn no_levels_and_nothing() {
     let wrong = [Target::Ratio(2.0)];
     assert!(NestedLevels::build(&shapes::cube(2), &wrong, &options, &mut Monitor::silent()).is_err());
 }
+
+#[cfg(feature = "deviation")]
+#[test]
+fn certified_errors_are_bounds() {
+    use decimesh::deviation::{BoundOptions, DeviationError, Sampling, deviation};
+    use std::ops::ControlFlow;
+
+    let mesh = shapes::bumpy_sphere(12, 1);
+    let mut levels = nested(&mesh, &options());
+    let estimated = levels.clone();
+    let mut cancel =
+        Monitor::new(|done| if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
+    let bounds = BoundOptions { tolerance: 0.05, ..BoundOptions::default() };
+    assert!(matches!(levels.certify(&bounds, &mut cancel), Err(DeviationError::Cancelled(_))));
+    assert_eq!(levels, estimated);
+
+    let found = levels.certify(&bounds, &mut Monitor::silent()).unwrap();
+    assert_eq!(found.len(), RATIOS.len());
+    let certified = levels.levels();
+    assert_eq!(certified[0].error, 0.0);
+    assert!(certified.is_sorted_by(|finer, coarser| finer.error <= coarser.error));
+    for (number, (level, bound)) in certified[1..].iter().zip(&found).enumerate() {
+        assert!(f64::from(level.error) >= bound.upper);
+        let sampling = Sampling { samples: 2000, ..Sampling::default() };
+        let coarse = levels.level_mesh(number + 1);
+        let measured = deviation(&mesh, &coarse, &sampling, &mut Monitor::silent()).unwrap();
+        assert!(measured.max <= f64::from(level.error), "{} > {}", measured.max, level.error);
+    }
+
+    let vanished = [Target::Triangles(0)];
+    let mut levels = NestedLevels::build(&mesh, &vanished, &options(), &mut Monitor::silent()).unwrap();
+    let outcome = levels.certify(&bounds, &mut Monitor::silent());
+    assert_eq!(outcome.is_err(), levels.triangles(1).is_empty());
+}

@@ -73,8 +73,11 @@ proptest! {
 
     #[test]
     fn levels_of_any_chain_are_marked(mesh in mesh(), paper in any::<bool>()) {
-        let papers = Selection::ReplacementSelection { records: 15 };
-        check_chain(&mesh, if paper { papers } else { Selection::SampledThreshold });
+        let replacement = Selection::ReplacementSelection { records: 15 };
+        let selection = if paper { replacement } else { Selection::SampledThreshold };
+        let mut places: Vec<_> = mesh.positions().iter().map(|place| place.map(|x| (x + 0.0).to_bits())).collect();
+        places.sort_unstable();
+        check_chain(&mesh, selection, places.windows(2).all(|pair| pair[0] != pair[1]));
     }
 
     #[test]
@@ -117,8 +120,9 @@ proptest! {
     }
 }
 
-/// A chain's levels are there, and say where.
-fn check_chain(mesh: &Mesh, selection: Selection) {
+/// A chain's levels are there, and say where. Of a mesh that is not `clean` an engine may keep triangles with
+/// two corners at one place, and move these apart: such triangles are missing.
+fn check_chain(mesh: &Mesh, selection: Selection, clean: bool) {
     let targets = [0.5, 0.2, 0.05].map(Target::Ratio);
     let options = Options { selection, ..Options::new(targets[0]) };
     let progressive = Progressive::build(mesh, &targets, &options, &mut Monitor::silent()).unwrap();
@@ -136,8 +140,10 @@ fn check_chain(mesh: &Mesh, selection: Selection) {
         let sources = level.sources.as_ref().unwrap();
         let corners = level.mesh.triangles().iter();
         let expected = corners.map(|triangle| triangle.map(|vertex| sources[vertex as usize])).collect();
-        let triangles = named(&progressive, &progressive.triangles_at(mark.step));
-        assert_eq!(surface(mesh, triangles), surface(mesh, expected));
+        let triangles = surface(mesh, named(&progressive, &progressive.triangles_at(mark.step)));
+        let expected = surface(mesh, expected);
+        assert!(triangles.iter().all(|triangle| expected.binary_search(triangle).is_ok()));
+        assert!(!clean || triangles == expected, "{triangles:?} should be {expected:?}");
     }
     let error = Progressive::from_levels(mesh, &levels).unwrap_err();
     assert_eq!(error, ProgressiveError::NotTracked);
@@ -161,7 +167,7 @@ fn surface(mesh: &Mesh, mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
 #[test]
 fn levels_of_a_chain_are_marked() {
     for mesh in [shapes::bumpy_sphere(20, 1), shapes::torus(30, 15), shapes::plane(20), seamed(20)] {
-        check_chain(&mesh, Selection::SampledThreshold);
+        check_chain(&mesh, Selection::SampledThreshold, true);
     }
 }
 

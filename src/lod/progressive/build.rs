@@ -20,7 +20,7 @@ impl Progressive {
     /// Fails where a collapse names a vertex that does not exist or is gone, or the same one twice. That its
     /// vertices share an edge is not asked for.
     ///
-    /// n log n time in the vertices, linear in the triangles and in the corners that change; about 60 bytes
+    /// n log n time in the vertices, linear in the triangles and in the corners that change; about 65 bytes
     /// of memory a triangle of a closed mesh besides the result.
     pub fn new(mesh: &Mesh, collapses: &[HalfEdge]) -> Result<Self, ProgressiveError> {
         check(mesh, collapses)?;

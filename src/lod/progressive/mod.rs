@@ -182,7 +182,8 @@ impl Progressive {
 
     /// The same of levels that [`build_levels`] has made of `mesh`, from fine to coarse. It must have been
     /// asked for [`Placement::Existing`] and collapses. Levels for which the topology had to be given up are
-    /// left out: collapses alone do not lead there.
+    /// left out: collapses alone do not lead there. So are triangles with two corners at one place, even where
+    /// a coarser level has moved these apart.
     pub fn from_levels(mesh: &Mesh, levels: &[Simplified]) -> Result<Self, ProgressiveError> {
         let kept: Vec<_> =
             levels.iter().map_while(|level| Some((level.collapses.as_ref()?, level.error))).collect();
