@@ -73,7 +73,7 @@ documentation() {
 # As the tests built them: by itself, cargo would build their dependencies once more.
 rust_examples() {
     local example
-    for example in buffers levels cancel; do
+    for example in buffers levels cancel nested; do
         "$target/debug/examples/$example"
     done
 }

@@ -225,6 +225,10 @@ pub(crate) struct LevelsArguments {
     /// as the first, into one file NAME_levels.glb: nodes that share one vertex buffer (MSFT_lod).
     #[arg(long)]
     pub(crate) nested: bool,
+    /// With --nested: put a guaranteed bound on the distance of each level from the input into that file
+    /// and the report, in place of the estimated error. Takes longer than all else.
+    #[arg(long, requires = "nested")]
+    pub(crate) certify: bool,
     /// With --nested: also write all levels in between, as a progressive mesh that `play` takes levels from.
     #[arg(long, value_name = "FILE.dpm", requires = "nested")]
     pub(crate) progressive: Option<PathBuf>,

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use decimesh::deviation::{Sampling, deviation};
+use decimesh::deviation::{BoundOptions, Sampling, deviation};
 use decimesh::hqms::build_levels;
 use decimesh::lod::{NestedLevels, Progressive};
 use decimesh::{Mesh, Options, Placement, Simplified, Target};
@@ -54,7 +54,8 @@ pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
         report::warn_if_stuck(&path.display().to_string(), level);
         reports.push(measure(&original, level, number, path, arguments, &progress)?);
     }
-    let nested = if arguments.nested { Some(write_nested(&original, &levels, arguments)?) } else { None };
+    let nested =
+        if arguments.nested { Some(write_nested(&original, &levels, arguments, &progress)?) } else { None };
     let progressive = arguments.progressive.as_deref();
     let progressive = progressive.map(|path| write_progressive(&original, &levels, path)).transpose()?;
     let report = LevelsReport {
@@ -95,14 +96,21 @@ fn write_nested(
     original: &Mesh,
     levels: &[Simplified],
     arguments: &LevelsArguments,
+    progress: &Progress,
 ) -> Result<NestedReport, Failure> {
     let path = path(arguments, "levels", "glb");
-    let nested = NestedLevels::from_levels(original, levels)?;
+    let mut nested = NestedLevels::from_levels(original, levels)?;
+    if arguments.certify {
+        let options = BoundOptions { threads: arguments.engine.threads, ..BoundOptions::default() };
+        progress.during("certifying", |monitor| nested.certify(&options, monitor))?;
+    }
     nested.write_glb(&path).map_err(Failure::Write)?;
     Ok(NestedReport {
         file: file_name(&path),
         bytes: bytes(&path)?,
         vertices: nested.levels().iter().map(|level| level.vertices).collect(),
+        errors: nested.levels().iter().map(|level| level.error).collect(),
+        certified: arguments.certify,
     })
 }
 
@@ -191,8 +199,12 @@ fn text(report: &LevelsReport, measured: bool) -> String {
     let header = ["level", "triangles", "vertices", "estimated error", "measured RMS", "measured maximum"];
     let columns = if measured { 6 } else { 4 };
     let mut text = table(&header[..columns], 0, report.levels.iter().map(row));
-    if let Some(NestedReport { file, bytes, .. }) = &report.nested {
+    if let Some(NestedReport { file, bytes, errors, certified, .. }) = &report.nested {
         text += &format!("{file}: all levels on one vertex buffer, {} bytes\n", grouped(*bytes as usize));
+        if *certified {
+            let errors: Vec<_> = errors[1..].iter().map(|&error| significant(f64::from(error))).collect();
+            text += &format!("no level is farther from the input than {}\n", errors.join(", "));
+        }
     }
     if let Some(ProgressiveReport { file, bytes, bytes_per_vertex, steps, .. }) = &report.progressive {
         let (bytes, steps) = (grouped(*bytes as usize), grouped(*steps));

@@ -60,6 +60,9 @@ pub(crate) struct NestedReport {
     pub(crate) bytes: u64,
     /// For each level, from the input on, where its prefix of the vertices ends.
     pub(crate) vertices: Vec<usize>,
+    /// For each level, from the input on, what the file says: estimated, or a bound where `certified`.
+    pub(crate) errors: Vec<f32>,
+    pub(crate) certified: bool,
 }
 
 #[derive(Debug, Serialize)]

@@ -75,6 +75,20 @@ fn nested_levels_are_one_file_too() {
 }
 
 #[test]
+fn certified_levels_are_no_farther_than_they_say() {
+    let bench = Workbench::with("ball.ply", &ball(12, 12));
+    let text = bench.run_well("levels ball.ply . --count 2 --ratio 0.4 --nested --certify --report r.json");
+    assert!(text.contains("no level is farther from the input than "), "{text}");
+    let report = bench.json("r.json");
+    let errors = report["nested"]["errors"].as_array().unwrap();
+    assert_eq!((errors.len(), errors[0].as_f64()), (3, Some(0.0)));
+    assert_eq!(report["nested"]["certified"], true);
+    for (error, level) in errors[1..].iter().zip(report["levels"].as_array().unwrap()) {
+        assert!(error.as_f64().unwrap() >= number(level, "max"), "{report}");
+    }
+}
+
+#[test]
 fn a_progressive_file_ends_where_the_topology_changes() {
     let wheel = decimesh::mesh::shapes::torus(24, 12);
     let bench = Workbench::with("wheel.ply", &wheel);
@@ -113,6 +127,7 @@ fn failures_have_their_codes_and_change_nothing() {
     );
     bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --report nowhere/r.json", 4, "nowhere/r.json");
     bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --progressive b.dpm", 2, "--nested");
+    bench.run_badly("levels ball.ply out --ratio 0.5 --count 2 --certify", 2, "--nested");
     let line = "levels ball.ply out --ratio 0.5 --count 2 --nested --progressive nowhere/b.dpm";
     bench.run_badly(line, 4, "nowhere/b.dpm");
     for ratio in ["0", "1", "-0.5", "nan"] {
