@@ -108,6 +108,6 @@ fn lying_headers_get_no_memory() {
 fn measured<E>(read: impl FnOnce() -> Result<(), E>) -> (usize, E) {
     let before = LIVE.load(Relaxed);
     PEAK.store(before, Relaxed);
-    let error = read().err().expect("more is promised than is there");
+    let error = read().expect_err("more is promised than is there");
     (PEAK.load(Relaxed) - before, error)
 }
