@@ -106,6 +106,9 @@ mod tests {
             let found = distance_squared(p, [a, b, c]).sqrt();
             let expected = searched(p, [a, b, c]);
             prop_assert!((found - expected).abs() < 1e-6, "{found} is not {expected}");
+            let nearest = nearest_point(p, [a, b, c]);
+            prop_assert!((nearest.distance(p) - found).abs() < 1e-9, "{nearest} is not {found} away");
+            prop_assert!(searched(nearest, [a, b, c]) < 1e-6, "{nearest} is not of the triangle");
         }
     }
 
