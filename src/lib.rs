@@ -55,8 +55,8 @@ mod random;
 mod workers;
 
 pub use hqms::{
-    HalfEdge, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
-    build_levels, simplify,
+    AttributeWeights, HalfEdge, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target,
+    Topology, build_levels, simplify,
 };
 pub use lod::coarsest_within;
 pub use mesh::{Attributes, Mesh, MeshError};

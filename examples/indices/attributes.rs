@@ -4,7 +4,7 @@
 use std::error::Error;
 
 use decimesh::deviation::{Sampling, deviation};
-use decimesh::{Mesh, Monitor, Options, Target};
+use decimesh::{AttributeWeights, Mesh, Monitor, Options, Target};
 use meshopt::SimplifyOptions;
 
 use crate::attribute_error::attribute_error;
@@ -100,9 +100,10 @@ pub(crate) fn compare(subjects: &[Subject], weights: Weights, effort: Effort) ->
     Ok(())
 }
 
-/// decimesh's options: the one place where it is told of the weights, once it takes any.
-fn options(triangles: usize, _weights: Weights) -> Options {
-    contenders::options(Target::Triangles(triangles))
+/// decimesh's options, with the same weights.
+fn options(triangles: usize, weights: Weights) -> Options {
+    let attribute_weights = AttributeWeights { normals: weights.normal, uvs: weights.uv, colors: 0.0 };
+    Options { attribute_weights, ..contenders::options(Target::Triangles(triangles)) }
 }
 
 /// Attributes as meshoptimizer takes them, made outside of the timing, which is in its favour.

@@ -4,14 +4,38 @@
 //! more: here a collapse keeps the topology (link condition), folds no face over, and moves no
 //! locked vertex.
 
+pub(crate) mod attributes;
+pub(crate) mod half_edge;
+mod load;
 pub(crate) mod queue;
 pub(crate) mod ring;
 pub(crate) mod surface;
 pub(crate) mod tile;
+pub(crate) mod wedges;
 
 use crate::quadric::place;
 use glam::{Vec3A, Vec4};
 use ring::Ring;
+
+/// How much a surface has, or lost.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) faces: usize,
+    /// Vertices of the result: where one of the surface has several wedges, each of these.
+    pub(crate) vertices: usize,
+}
+
+impl Counts {
+    pub(crate) fn remove(&mut self, removed: Self) {
+        self.faces -= removed.faces;
+        self.vertices -= removed.vertices;
+    }
+
+    pub(crate) fn add(&mut self, more: Self) {
+        self.faces += more.faces;
+        self.vertices += more.vertices;
+    }
+}
 
 /// What a collapse must not do.
 #[derive(Debug, Clone, Copy)]
@@ -101,7 +125,12 @@ impl Edge<'_> {
             let of_target = fold(self.target, self.source.vertex, position - into)?;
             distance_squared = distance_squared.max(of_target);
         }
-        let error = self.source_point.w.max(self.target_point.w) + distance_squared.sqrt();
+        // What stays where it is adds nothing to the error that led there.
+        let error = if rules.half_edge {
+            self.target_point.w.max(self.source_point.w + distance_squared.sqrt())
+        } else {
+            self.source_point.w.max(self.target_point.w) + distance_squared.sqrt()
+        };
         if error > rules.error_limit || !position.is_finite() {
             return None;
         }

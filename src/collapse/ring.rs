@@ -50,6 +50,23 @@ pub(crate) struct Gathering<'a> {
     sum: QuadricSum,
 }
 
+/// A ring of names alone, being filled.
+pub(crate) struct Naming<'a> {
+    next: &'a mut [u32],
+    previous: &'a mut [u32],
+    count: usize,
+}
+
+impl Naming<'_> {
+    /// Adds a face. No more may be added than there is room for.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, (next, previous): (u32, u32)) {
+        self.next[self.count] = next;
+        self.previous[self.count] = previous;
+        self.count += 1;
+    }
+}
+
 impl Gathering<'_> {
     /// Adds a face. No more may be added than there is room for.
     #[inline(always)]
@@ -113,23 +130,20 @@ impl Ring {
         vertex: u32,
         boundary: bool,
         room: usize,
-        names: impl Iterator<Item = (u32, u32)>,
+        fill: impl FnOnce(&mut Naming),
     ) {
         let padded = room.next_multiple_of(LANES);
         if self.next.len() < padded {
             self.next.resize(padded, NONE);
             self.previous.resize(padded, NONE);
         }
-        let mut count = 0usize;
-        for ((next, previous), (into_next, into_previous)) in
-            names.zip(self.next.iter_mut().zip(&mut self.previous))
-        {
-            (*into_next, *into_previous) = (next, previous);
-            count += 1;
-        }
+        let mut naming =
+            Naming { next: &mut self.next[..padded], previous: &mut self.previous[..padded], count: 0 };
+        fill(&mut naming);
+        let Naming { next, previous, count } = naming;
         for index in count..count.next_multiple_of(LANES) {
-            self.next[index] = NONE;
-            self.previous[index] = NONE;
+            next[index] = NONE;
+            previous[index] = NONE;
         }
         self.count = count;
         self.vertex = vertex;

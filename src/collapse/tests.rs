@@ -6,7 +6,7 @@ use glam::Vec3A;
 use proptest::prelude::*;
 
 use super::ring::Ring;
-use super::surface::{Surface, Track, flag};
+use super::surface::{Setting, Surface, flag};
 use super::{Edge, fold};
 use crate::mesh::{Mesh, Topology, shapes};
 use crate::workers::Workers;
@@ -137,7 +137,7 @@ proptest! {
     /// A vertex is flagged if an edge of it has not as many faces in one direction as in the other.
     #[test]
     fn boundary_against_counting(mesh in prop_oneof![torn(), dirty()], lock in any::<bool>()) {
-        let mut surface = Surface::new(&mesh, None, &[], false, Track::default(), &Workers::Caller);
+        let mut surface = Surface::new(&mesh, &Setting::default(), &Workers::Caller);
         surface.build_rings(&Workers::Caller);
         let unreferenced = surface.classify(lock, &Workers::Caller);
         let sides = sides(&mesh);

@@ -5,9 +5,11 @@
 //! and a face between tiles nobody does. A ring that leaves the tile is not gathered at all. So
 //! tiles can work side by side without locks, and what each does depends on nothing the others do.
 
+use super::half_edge::{self, Terms};
 use super::ring::Ring;
 use super::surface::{Face, NONE, flag, is_alive, neighbours};
-use super::{Collapse, Edge, HalfEdge, Rules};
+use super::wedges::Wedges;
+use super::{Collapse, Counts, Edge, HalfEdge, Rules};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -34,6 +36,7 @@ pub(crate) struct Columns<'a> {
     pub(crate) flags: &'a mut [u8],
     pub(crate) merged: &'a mut [u32],
     pub(crate) absorbed: &'a mut [u32],
+    pub(crate) attribute_errors: &'a mut [f32],
     pub(crate) normals: &'a mut [[f32; 3]],
     pub(crate) colors: &'a mut [[u8; 4]],
     pub(crate) uvs: &'a mut [[f32; 2]],
@@ -45,8 +48,7 @@ pub(crate) struct Shared<'a> {
     pub(crate) faces: &'a [Face],
     pub(crate) offsets: &'a [u32],
     pub(crate) incidence: &'a [AtomicU32],
-    /// The vertex of the input that each is.
-    pub(crate) sources: &'a [u32],
+    pub(crate) terms: Terms<'a>,
 }
 
 /// Room to work in, one a thread.
@@ -54,6 +56,7 @@ pub(crate) struct Shared<'a> {
 pub(crate) struct Scratch {
     pub(crate) source: Ring,
     pub(crate) target: Ring,
+    half_edge: half_edge::Scratch,
     neighbours: [Vec<u32>; 2],
 }
 
@@ -67,16 +70,18 @@ impl<'a> Columns<'a> {
         let (flags, flags_after) = cut(self.flags, count);
         let (merged, merged_after) = cut(self.merged, count);
         let (absorbed, absorbed_after) = cut(self.absorbed, count);
+        let (attribute_errors, attribute_errors_after) = cut(self.attribute_errors, count);
         let (normals, normals_after) = cut(self.normals, count);
         let (colors, colors_after) = cut(self.colors, count);
         let (uvs, uvs_after) = cut(self.uvs, count);
         [
-            Self { points, flags, merged, absorbed, normals, colors, uvs },
+            Self { points, flags, merged, absorbed, attribute_errors, normals, colors, uvs },
             Self {
                 points: points_after,
                 flags: flags_after,
                 merged: merged_after,
                 absorbed: absorbed_after,
+                attribute_errors: attribute_errors_after,
                 normals: normals_after,
                 colors: colors_after,
                 uvs: uvs_after,
@@ -170,37 +175,67 @@ impl<'a> Tile<'a> {
         })
     }
 
-    /// `vertex` and those it has absorbed in this pass.
-    fn with_absorbed(&self, vertex: u32) -> impl Iterator<Item = u32> + Clone {
-        std::iter::successors(Some(vertex), |&vertex| {
-            let next = self.columns.absorbed[(vertex - self.first) as usize];
-            (next != NONE).then_some(next)
-        })
+    /// The neighbour to which `scratch.source`, which has been gathered, goes most cheaply if neighbours do
+    /// not move, and the cost. What costs `limit` or more need not be found.
+    #[inline(always)]
+    pub(crate) fn cheapest_target(&self, limit: f32, scratch: &mut Scratch) -> Option<(f32, u32)> {
+        let vertex = scratch.source.vertex;
+        if self.shared.terms.are_none() {
+            let factor = half_edge::factor(self.flags(vertex));
+            return scratch.source.cheapest_target().map(|(cost, name)| (factor * cost, name));
+        }
+        self.gather_corners(vertex, &mut scratch.half_edge.wedges.corners);
+        let Scratch { source, half_edge, .. } = scratch;
+        let flags = |neighbour| self.flags(neighbour);
+        self.shared.terms.cheapest(source, self.flags(vertex), flags, None, limit, half_edge)
+    }
+
+    /// The living corners of a vertex, in the order of its ring.
+    fn gather_corners(&self, vertex: u32, corners: &mut Vec<u32>) {
+        corners.clear();
+        let all = self.corners(vertex).iter().map(|corner| corner.load(Relaxed));
+        corners.extend(all.filter(|corner| is_alive(&self.shared.faces[(corner >> 2) as usize])));
+    }
+
+    /// What `vertex`, or one that was absorbed before, has absorbed next in this pass, or [`NONE`].
+    fn absorbed(&self, vertex: u32) -> u32 {
+        self.columns.absorbed[(vertex - self.first) as usize]
     }
 
     /// Gathers the names of the ring of a `vertex` that stays where it is, and may have absorbed others;
     /// the ring may leave the tile. `false` if there are too many beside the `joining` ones.
     #[inline(always)]
     fn gather_names(&self, vertex: u32, joining: usize, ring: &mut Ring) -> bool {
-        let absorbed = self.columns.absorbed[(vertex - self.first) as usize] != NONE;
-        let room = self.with_absorbed(vertex).map(|vertex| self.degree(vertex)).sum();
-        if room > if absorbed { 2 * MAX_DEGREE } else { MAX_DEGREE } {
+        let has_absorbed = self.absorbed(vertex) != NONE;
+        let mut room = self.degree(vertex);
+        let mut absorbed = self.absorbed(vertex);
+        while absorbed != NONE {
+            room += self.degree(absorbed);
+            absorbed = self.absorbed(absorbed);
+        }
+        if room > if has_absorbed { 2 * MAX_DEGREE } else { MAX_DEGREE } {
             return false;
         }
         let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
-        let corners = self.with_absorbed(vertex).flat_map(|vertex| self.corners(vertex));
-        let alive = corners
-            .map(|corner| corner.load(Relaxed))
-            .filter(|corner| is_alive(&self.shared.faces[(corner >> 2) as usize]));
-        ring.gather_names(vertex, boundary, room, alive.map(|corner| neighbours(self.shared.faces, corner)));
-        !absorbed || ring.next().len() + joining <= MAX_ABSORBED
+        ring.gather_names(vertex, boundary, room, |names| {
+            let mut member = vertex;
+            while member != NONE {
+                for corner in self.corners(member) {
+                    let corner = corner.load(Relaxed);
+                    if is_alive(&self.shared.faces[(corner >> 2) as usize]) {
+                        names.push(neighbours(self.shared.faces, corner));
+                    }
+                }
+                member = self.absorbed(member);
+            }
+        });
+        !has_absorbed || ring.next().len() + joining <= MAX_ABSORBED
     }
 
     /// Collapses `scratch.source`, which has been gathered and is unused, into `target`, if the
-    /// rules allow it: the number of faces that this removed. Where they do not, the source is
-    /// blocked.
+    /// rules allow it: what this removed. Where they do not, the source is blocked.
     #[inline(always)]
-    pub(crate) fn collapse(&mut self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<usize> {
+    pub(crate) fn collapse(&mut self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<Counts> {
         let source = scratch.source.vertex;
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
         let gathered = if rules.half_edge {
@@ -218,11 +253,34 @@ impl<'a> Tile<'a> {
             target_point: self.columns.points[into],
             target_locked: self.columns.flags[into] & flag::LOCKED != 0,
         };
-        let collapse = edge.collapse(rules, &mut scratch.neighbours);
-        if collapse.is_none() {
+        let collapse = edge
+            .collapse(rules, &mut scratch.neighbours)
+            .filter(|_| !rules.half_edge || self.find_moves(target, scratch));
+        let Some(collapse) = collapse else {
             self.columns.flags[from] |= flag::BLOCKED;
+            return None;
+        };
+        if !rules.half_edge {
+            return Some(Counts { faces: self.execute(source, target, &collapse), vertices: 1 });
         }
-        collapse.map(|collapse| self.execute(source, target, &collapse))
+        let edge = Vec3A::from_vec4(self.columns.points[into]) - Vec3A::from_vec4(self.columns.points[from]);
+        let error = self.shared.terms.attribute_error(&scratch.source, edge, &mut scratch.half_edge);
+        let faces = self.execute(source, target, &collapse);
+        Some(Counts { faces, vertices: self.execute_half_edge(source, target, error, scratch) })
+    }
+
+    /// Finds where the wedges of `scratch.source` go; `false` if they may not go to `target`.
+    #[inline(always)]
+    fn find_moves(&self, target: u32, scratch: &mut Scratch) -> bool {
+        let terms = &self.shared.terms;
+        if terms.are_none() {
+            return true;
+        }
+        let Scratch { source, half_edge, .. } = scratch;
+        self.gather_corners(source.vertex, &mut half_edge.wedges.corners);
+        half_edge.wedges.look_up(&terms.wedges);
+        let flags = self.flags(source.vertex);
+        terms.find_moves(source, flags, &half_edge.wedges, target, &mut half_edge.moves)
     }
 
     fn execute(&mut self, source: u32, target: u32, collapse: &Collapse) -> usize {
@@ -250,15 +308,37 @@ impl<'a> Tile<'a> {
         if let Some(merged) = columns.merged.get_mut(from) {
             *merged = target;
         }
-        if !columns.absorbed.is_empty() {
-            columns.absorbed[from] = std::mem::replace(&mut columns.absorbed[into], source);
-        }
-        if let Some(collapses) = &mut self.collapses {
-            let sources = self.shared.sources;
-            collapses.push(HalfEdge { source: sources[source as usize], target: sources[target as usize] });
-        }
         blend_attributes(columns.normals, columns.colors, columns.uvs, [from, into], collapse.along);
         removed
+    }
+
+    /// What a half-edge collapse does besides, `error` to the attributes; how many vertices of the result it
+    /// removes.
+    #[inline(always)]
+    fn execute_half_edge(&mut self, source: u32, target: u32, error: f32, scratch: &Scratch) -> usize {
+        let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
+        let Self { columns, shared, collapses, .. } = self;
+        columns.absorbed[from] = std::mem::replace(&mut columns.absorbed[into], source);
+        let Wedges { faces, corners, sources, names } = shared.terms.wedges;
+        if shared.terms.are_none() {
+            if let Some(collapses) = collapses {
+                collapses
+                    .push(HalfEdge { source: sources[source as usize], target: sources[target as usize] });
+            }
+            return 1;
+        }
+        if !columns.attribute_errors.is_empty() {
+            let errors = &mut columns.attribute_errors;
+            errors[into] = errors[into].max(errors[from]) + error;
+        }
+        let moves = &scratch.half_edge.moves;
+        if shared.terms.wedges.are_several() {
+            moves.apply(faces, corners, &scratch.half_edge.wedges.corners);
+        }
+        if let Some(collapses) = collapses {
+            collapses.extend(moves.collapses(names));
+        }
+        moves.collapses(names).count()
     }
 }
 

@@ -1,26 +1,8 @@
 //! What is left to remove.
 
 use super::Target;
+use crate::collapse::Counts;
 use crate::mesh::Mesh;
-
-/// How much a surface has, or lost.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct Counts {
-    pub(crate) faces: usize,
-    pub(crate) vertices: usize,
-}
-
-impl Counts {
-    pub(crate) fn remove(&mut self, removed: Self) {
-        self.faces -= removed.faces;
-        self.vertices -= removed.vertices;
-    }
-
-    pub(crate) fn add(&mut self, more: Self) {
-        self.faces += more.faces;
-        self.vertices += more.vertices;
-    }
-}
 
 /// A target, in the units of the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

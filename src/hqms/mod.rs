@@ -19,6 +19,7 @@ mod run;
 pub(crate) mod stages;
 
 pub use crate::collapse::HalfEdge;
+pub use crate::collapse::attributes::AttributeWeights;
 use crate::mesh::{Mesh, MeshError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::ThreadsError;
@@ -86,12 +87,31 @@ pub struct Options {
     pub placement: Placement,
     /// Vertices of the border stay, bit for bit.
     pub lock_boundary: bool,
-    /// Where the mesh has attributes, vertices at one place stay, bit for bit: seams of textures and
-    /// creases of normals then open no crack. Without this the sides of a seam are borders, and part.
-    /// A mesh that is all seams, such as a faceted one, gets stuck with it: weld it.
+    /// Seams of textures and creases of normals, at which several vertices are at one place, open no
+    /// crack. Without this their sides are borders, and part.
+    ///
+    /// With [`Placement::Existing`], vertices of one surface are known by their places, with attributes or
+    /// without, and go along seams. With [`Placement::Optimal`], where the mesh has attributes, vertices
+    /// at one place stay, bit for bit; a mesh that is all seams, such as a faceted one, gets stuck: weld it.
     pub keep_seams: bool,
     /// Indices of vertices that stay, bit for bit.
     pub locked: Vec<u32>,
+    /// What attributes count beside the distance: for [`Placement::Existing`] only.
+    pub attribute_weights: AttributeWeights,
+    /// The group of each triangle, such as its material: where groups meet, their border stays a border,
+    /// and [`Simplified::groups`] says of which group each triangle of the result is. For
+    /// [`Placement::Existing`] only.
+    pub groups: Option<Vec<u32>>,
+    /// Where no vertex moves, vertices may go across seams too, at the cost of the attributes by their
+    /// weights: what was on one side then takes the nearest attributes of the other. The surface stays
+    /// closed, and groups keep their borders. Without this a mesh of many small charts, or a faceted one,
+    /// gets stuck at their corners.
+    pub cross_seams: bool,
+    /// Indices of vertices that go along seams only, whatever `cross_seams` says.
+    pub protected: Vec<u32>,
+    /// Indices of vertices that are kept as long as others can go: they cost a hundred times as much. For
+    /// [`Placement::Existing`] only.
+    pub prioritized: Vec<u32>,
     /// Threads to use; 0: all that the machine has. The result does not depend on it.
     pub threads: usize,
     /// Fill [`Simplified::origins`].
@@ -113,6 +133,11 @@ impl Options {
             lock_boundary: false,
             keep_seams: true,
             locked: Vec::new(),
+            attribute_weights: AttributeWeights::default(),
+            groups: None,
+            cross_seams: false,
+            protected: Vec::new(),
+            prioritized: Vec::new(),
             threads: 0,
             track_origins: false,
             track_sources: false,
@@ -142,6 +167,10 @@ pub struct Simplified {
     pub stopped_by: StoppedBy,
     /// Estimated largest distance from the input, in units of the positions.
     pub error: f32,
+    /// Estimated largest difference of the attributes from the input's, weighted: in units of the positions,
+    /// a difference of 1 being the weight times the longest side of the bounding box. 0 where no attribute
+    /// has a weight.
+    pub attribute_error: f32,
     /// How many vertices of the input were locked: by index, as borders, or as seams.
     pub locked: usize,
     /// Whether holes, handles or components had to be given up to meet the target.
@@ -151,6 +180,8 @@ pub struct Simplified {
     /// For each output vertex the input vertex that it was before others went into it. A vertex at which
     /// the surface was parted (see [`Topology::RelaxIfStuck`]) has several output vertices.
     pub sources: Option<Vec<u32>>,
+    /// The group of each triangle, if groups were given.
+    pub groups: Option<Vec<u32>>,
     /// What was collapsed, in an order in which it can be done again: at each, all corners of triangles that
     /// are the source become the target, and the triangles vanish that then have two corners at one place.
     /// From the input's triangles, those with two corners at one place left out, this leads to the

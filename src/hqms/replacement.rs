@@ -12,10 +12,10 @@
 //! left to the finish, as they are in the default: an order of 15 records would lose the corners of
 //! flat-faced solids.
 
-use super::goal::{Counts, Goal};
-use crate::collapse::Rules;
+use super::goal::Goal;
 use crate::collapse::surface::{Surface, flag};
 use crate::collapse::tile::{Scratch, Tile};
+use crate::collapse::{Counts, Rules};
 use crate::monitor::Cancelled;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -82,12 +82,12 @@ fn contraction(tile: &Tile, vertex: u32, rules: &Rules, scratch: &mut Scratch) -
     }
     // Two rings share the faces of the edge, mostly two.
     let joined = |neighbour| tile.degree(vertex) + tile.degree(neighbour) - 2;
-    let eligible = |neighbour| {
-        is_unmodified(tile, neighbour)
-            && joined(neighbour) < MAXDEG
-            && (!rules.half_edge || scratch.source.may_go_to(neighbour))
+    let eligible = |neighbour| is_unmodified(tile, neighbour) && joined(neighbour) < MAXDEG;
+    let (cost, neighbour) = if rules.half_edge {
+        tile.cheapest_target(f32::INFINITY, scratch).filter(|&(_, neighbour)| eligible(neighbour))?
+    } else {
+        scratch.source.cheapest_neighbour(eligible)?
     };
-    let (cost, neighbour) = scratch.source.cheapest_neighbour(eligible)?;
     Some(Reverse((cost.to_bits(), vertex, neighbour)))
 }
 
@@ -97,8 +97,8 @@ fn execute(tile: &mut Tile, record: Record, rules: &Rules, scratch: &mut Scratch
     if is_unmodified(tile, source)
         && is_unmodified(tile, target)
         && tile.gather(source, &mut scratch.source)
-        && let Some(faces) = tile.collapse(target, rules, scratch)
+        && let Some(counts) = tile.collapse(target, rules, scratch)
     {
-        removed.add(Counts { faces, vertices: 1 });
+        removed.add(counts);
     }
 }

@@ -3,12 +3,12 @@
 //! Not part of the API: only with the feature `bench-internals`, and free to change with the engine.
 
 use super::finish::Finish;
-use super::goal::{Counts, Goal};
+use super::goal::Goal;
 use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
 use super::{Target, replacement};
-use crate::collapse::Rules;
-use crate::collapse::surface::{Surface, Track};
+use crate::collapse::surface::{Setting, Surface};
+use crate::collapse::{Counts, Rules};
 use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
 use crate::workers::{ThreadsError, Workers};
@@ -35,9 +35,10 @@ pub struct Stages {
 impl Stages {
     /// Copies `mesh` into working form, in a coherent order, on its way to `ratio` of its triangles.
     pub fn load(mesh: &Mesh, ratio: f64, threads: usize) -> Result<Self, ThreadsError> {
-        let rank = rank(mesh, TILE / 8);
+        let rank = rank(mesh, None, TILE / 8);
         let workers = Workers::new(threads)?;
-        let surface = Surface::new(mesh, rank.as_deref(), &[], false, Track::default(), &workers);
+        let setting = Setting { rank: rank.as_deref(), ..Setting::default() };
+        let surface = Surface::new(mesh, &setting, &workers);
         Ok(Self {
             counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,
@@ -59,7 +60,8 @@ impl Stages {
 
     /// Finds the border. Needs the rings.
     pub fn classify(&mut self) {
-        self.counts.vertices -= self.surface.classify(false, &self.workers);
+        self.surface.classify(false, &self.workers);
+        self.counts.vertices = self.surface.vertex_count();
     }
 
     /// One pass of the default selection. Needs the rings.

@@ -7,6 +7,7 @@
 
 mod extent;
 pub(crate) mod partition;
+pub(crate) mod places;
 mod rings;
 pub mod shapes;
 mod statistics;
@@ -178,6 +179,28 @@ impl Mesh {
             triangles,
             attributes: self.attributes.select(&kept),
         }
+    }
+
+    /// The mesh of other triangles on the same vertices, without those that none of them uses; and for each
+    /// of its vertices the one of this mesh that it is, ascending. Linear.
+    pub fn of_triangles(&self, triangles: &[[u32; 3]]) -> Result<(Self, Vec<u32>), MeshError> {
+        let vertices = self.positions.len();
+        let mut places = vec![u32::MAX; vertices];
+        for (triangle, corners) in triangles.iter().enumerate() {
+            for &index in corners {
+                let place = places.get_mut(index as usize);
+                *place.ok_or(MeshError::IndexOutOfRange { triangle, index, vertices })? = 0;
+            }
+        }
+        let mut used = Vec::new();
+        for (place, vertex) in places.iter_mut().zip(0..).filter(|(place, _)| **place == 0) {
+            *place = used.len() as u32;
+            used.push(vertex);
+        }
+        let triangles = triangles.iter().map(|triangle| triangle.map(|vertex| places[vertex as usize]));
+        let attributes = self.attributes.select(&used);
+        let mesh = Self::with_attributes(select(&self.positions, &used), triangles.collect(), attributes)?;
+        Ok((mesh, used))
     }
 
     /// The buffers, without a copy.

@@ -1,8 +1,9 @@
 //! Making one vertex of several at one place: the soup of an STL file, the seams of a game asset.
 
 use std::collections::HashMap;
+use std::hash::BuildHasher;
 
-use rayon::prelude::*;
+use hashbrown::hash_table::{Entry, HashTable};
 
 use super::topology::is_face;
 use super::{Attributes, Mesh, select};
@@ -48,7 +49,7 @@ impl Mesh {
     /// dropped, one that never had them as well; triangles that become duplicates and vertices that no
     /// triangle uses stay.
     ///
-    /// n log n time for [`Weld::Exact`], linear for a tolerance at which a vertex has few neighbours.
+    /// Linear time for [`Weld::Exact`], and for a tolerance at which a vertex has few neighbours.
     pub fn weld(&self, weld: Weld) -> Result<Welded, WeldError> {
         let mut map = match weld {
             Weld::Exact | Weld::Tolerance(0.0) => first_equal(self.positions()),
@@ -78,24 +79,73 @@ impl Mesh {
     }
 }
 
-/// For each position the index of the first one equal to it.
+/// For each position the index of the first one equal to it (zero and negative zero are equal).
 ///
-/// Sorted, not hashed: no input is slow, and a record takes 16 bytes.
+/// Most meshes repeat few positions or none: a filter that fits the cache finds those that may be repeated,
+/// one in 16 of the others among them, and only these are hashed in earnest.
 pub(crate) fn first_equal(positions: &[[f32; 3]]) -> Vec<u32> {
-    let mut records: Vec<([u32; 3], u32)> = positions
-        .par_iter()
-        .zip(0..positions.len() as u32)
-        // Adding zero makes a negative zero positive.
-        .map(|(position, index)| (position.map(|x| (x + 0.0).to_bits()), index))
-        .collect();
-    records.par_sort_unstable();
-    let mut first = vec![0; positions.len()];
-    for equal in records.chunk_by(|a, b| a.0 == b.0) {
-        for record in equal {
-            first[record.1 as usize] = equal[0].1;
+    // Adding zero makes a negative zero positive.
+    let bits = |vertex: u32| positions[vertex as usize].map(|x| (x + 0.0).to_bits());
+    let vertices = 0..positions.len() as u32;
+    let mut filter = Filter::new(positions.len());
+    let repeated: Vec<u32> = vertices.clone().filter(|&vertex| filter.add(bits(vertex))).collect();
+    let mut first: Vec<u32> = vertices.clone().collect();
+    if repeated.is_empty() {
+        return first;
+    }
+    let mut suspects = Filter::new(positions.len());
+    repeated.iter().for_each(|&vertex| {
+        suspects.add(bits(vertex));
+    });
+    let hasher = hashbrown::DefaultHashBuilder::default();
+    let hash = |vertex: u32| hasher.hash_one(bits(vertex));
+    let mut table = HashTable::with_capacity(repeated.len());
+    for vertex in vertices.filter(|&vertex| suspects.has(bits(vertex))) {
+        let own = bits(vertex);
+        match table.entry(hash(vertex), |&other| bits(other) == own, |&other| hash(other)) {
+            Entry::Occupied(entry) => first[vertex as usize] = *entry.get(),
+            Entry::Vacant(entry) => {
+                entry.insert(vertex);
+            }
         }
     }
     first
+}
+
+/// A set of positions that may say yes where it should say no.
+struct Filter {
+    words: Vec<u64>,
+    /// A hash is shifted right by so much to name a bit.
+    shift: u32,
+}
+
+impl Filter {
+    /// For so many positions, 16 bits each at least.
+    fn new(positions: usize) -> Self {
+        let bits = (16 * positions).next_power_of_two().max(64);
+        Self { words: vec![0; bits / 64], shift: 64 - bits.ilog2() }
+    }
+
+    fn place(&self, [x, y, z]: [u32; 3]) -> (usize, u64) {
+        let mixed = (u64::from(x) << 32 | u64::from(y)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let mixed = (mixed ^ mixed >> 32 ^ u64::from(z)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        let bit = mixed >> self.shift;
+        ((bit / 64) as usize, 1 << (bit % 64))
+    }
+
+    /// Whether it has the position, or one that looks the same.
+    fn has(&self, position: [u32; 3]) -> bool {
+        let (word, bit) = self.place(position);
+        self.words[word] & bit != 0
+    }
+
+    /// Adds a position; whether it had it.
+    fn add(&mut self, position: [u32; 3]) -> bool {
+        let (word, bit) = self.place(position);
+        let had = self.words[word] & bit != 0;
+        self.words[word] |= bit;
+        had
+    }
 }
 
 /// The vertices at which the sides of a seam meet: those that are not alone at their place, of a mesh that

@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use decimesh::mesh::verify;
 use decimesh::{Attributes, Mesh, Options, Placement, Simplified, StoppedBy, Target, Topology};
 
+use crate::places::{self, Places};
+
 /// How far a vertex may lie outside the bounds of the input, as a share of their diagonal.
 const OVERSHOOT: f64 = 0.251;
 
@@ -47,22 +49,49 @@ fn bits(position: [f32; 3]) -> [u32; 3] {
 
 /// Panics, and says what is wrong, unless `result` keeps what the options promise.
 pub(crate) fn check(input: &Mesh, options: &Options, result: &Simplified) {
-    if let Err(violation) = verify(input, &result.mesh, !result.topology_changed) {
-        panic!("{violation}");
-    }
+    let places = Places::for_options(input, options);
+    check_surface(input, options, &places, result);
     assert!(options.topology != Topology::Keep || !result.topology_changed, "the topology was to be kept");
     assert!(result.error >= 0.0 && result.error.is_finite(), "error {}", result.error);
-    check_target(input, options.target, result);
-    check_origins(input, options, result);
+    check_target(input, options, result);
+    check_origins(input, options, &places, result);
     check_sources(input, options, result);
-    check_locks(input, options, result);
+    check_locks(input, options, &places, result);
     check_attributes(input, &result.mesh);
     check_extent(input, &result.mesh);
 }
 
-/// The count is met exactly, or the result says why not.
-pub(crate) fn check_target(input: &Mesh, target: Target, result: &Simplified) {
-    let (faces, vertices) = clean_counts(input);
+/// The surface is as sound as that of the input. Where vertices at one place are one, it is that of the places.
+fn check_surface(input: &Mesh, options: &Options, places: &Places, result: &Simplified) {
+    let topology_kept = !result.topology_changed;
+    let violation = if !places::are_known(options) {
+        verify(input, &result.mesh, topology_kept)
+    } else if topology_kept {
+        let Some(sources) = &result.sources else { panic!("no sources") };
+        let place = |vertex: u32| places.of[sources[vertex as usize] as usize];
+        verify(&places.surface(input), &places::merged(&result.mesh, place), true)
+    } else if places.most_removed() == 1 && options.groups.is_none() {
+        verify(input, &result.mesh, false)
+    } else {
+        // How the surface was parted is not to be seen: that its edges are sound is, whatever belongs together.
+        let (before, after) = (places.surface(input).topology(), result.mesh.topology());
+        assert!(after.non_manifold_edges <= before.non_manifold_edges, "new edges of more than two faces");
+        Ok(())
+    };
+    if let Err(violation) = violation {
+        panic!("{violation}");
+    }
+    let named: BTreeSet<u32> = result.mesh.triangles().as_flattened().iter().copied().collect();
+    assert_eq!(named.len(), result.mesh.positions().len(), "vertices that no triangle names");
+}
+
+/// The count is met exactly, or the result says why not. Along a seam several vertices go at once.
+pub(crate) fn check_target(input: &Mesh, options: &Options, result: &Simplified) {
+    let target = options.target;
+    let places = Places::for_options(input, options);
+    let whole: Vec<&[u32; 3]> =
+        input.triangles().iter().filter(|triangle| places.is_whole(triangle)).collect();
+    let (faces, vertices) = (whole.len(), whole.iter().copied().flatten().collect::<BTreeSet<_>>().len());
     let (faces_left, vertices_left) = (result.mesh.triangles().len(), result.mesh.positions().len());
     let faces_wanted = match target {
         Target::Triangles(wanted) => wanted,
@@ -72,9 +101,10 @@ pub(crate) fn check_target(input: &Mesh, target: Target, result: &Simplified) {
                 StoppedBy::Target if vertices <= wanted => {
                     assert_eq!((faces_left, vertices_left), (faces, vertices), "nothing was to be done");
                 }
-                StoppedBy::Target if !result.topology_changed => {
-                    assert_eq!(vertices_left, wanted, "vertices")
-                }
+                StoppedBy::Target if !result.topology_changed => assert!(
+                    vertices_left <= wanted && vertices_left + places.most_removed() > wanted,
+                    "{vertices_left} of {wanted} vertices"
+                ),
                 StoppedBy::Target => assert!(vertices_left <= wanted, "{vertices_left} of {wanted} vertices"),
                 _ => assert!(
                     vertices_left > wanted,
@@ -103,7 +133,7 @@ pub(crate) fn check_target(input: &Mesh, target: Target, result: &Simplified) {
     }
 }
 
-fn check_origins(input: &Mesh, options: &Options, result: &Simplified) {
+fn check_origins(input: &Mesh, options: &Options, places: &Places, result: &Simplified) {
     assert_eq!(result.origins.is_some(), options.track_origins);
     let Some(origins) = &result.origins else { return };
     assert_eq!(origins.len(), input.positions().len());
@@ -114,16 +144,41 @@ fn check_origins(input: &Mesh, options: &Options, result: &Simplified) {
     // Where the topology was given up, a vertex may have been split into several.
     let reached_all = reached.iter().all(|&reached| reached);
     assert!(reached_all || result.topology_changed, "an output vertex that nothing went into");
-    let used: BTreeSet<u32> =
-        input.triangles().iter().filter(|triangle| is_face(triangle)).flatten().copied().collect();
+    let used = used(input, places);
+    // A chart of a texture may vanish whole, its surface into the charts around it.
+    let may_vanish = |vertex: u32| result.topology_changed || has_seam(input, places, vertex);
     for (vertex, &origin) in origins.iter().enumerate() {
         let vanished = origin == u32::MAX;
         assert!(
-            !vanished || result.topology_changed || !used.contains(&(vertex as u32)),
+            !vanished || !used.contains(&(vertex as u32)) || may_vanish(vertex as u32),
             "{vertex} vanished"
         );
         assert!(vanished || used.contains(&(vertex as u32)), "{vertex} was not used, but went somewhere");
     }
+}
+
+/// The vertices of triangles that have three corners.
+fn used(input: &Mesh, places: &Places) -> BTreeSet<u32> {
+    input.triangles().iter().filter(|triangle| places.is_whole(triangle)).flatten().copied().collect()
+}
+
+/// Whether the chart that a vertex is on, which is what hangs together by vertices, ends at a seam.
+fn has_seam(input: &Mesh, places: &Places, vertex: u32) -> bool {
+    let mut sizes = vec![0; places.of.len()];
+    places.of.iter().for_each(|&place| sizes[place as usize] += 1);
+    let mut chart = BTreeSet::from([vertex]);
+    loop {
+        let before = chart.len();
+        for triangle in input.triangles().iter().filter(|triangle| places.is_whole(triangle)) {
+            if triangle.iter().any(|corner| chart.contains(corner)) {
+                chart.extend(triangle);
+            }
+        }
+        if chart.len() == before {
+            break;
+        }
+    }
+    chart.iter().any(|&vertex| sizes[places.of[vertex as usize] as usize] > 1)
 }
 
 /// Each vertex was one of the input's that went into it, and where none moves still is that one, bit for bit.
@@ -157,8 +212,11 @@ fn check_sources(input: &Mesh, options: &Options, result: &Simplified) {
 }
 
 /// Locked vertices are where they were, each as a vertex of its own.
-fn check_locks(input: &Mesh, options: &Options, result: &Simplified) {
+fn check_locks(input: &Mesh, options: &Options, places: &Places, result: &Simplified) {
     let mut locked: BTreeSet<u32> = options.locked.iter().copied().collect();
+    if places::are_known(options) {
+        return check_locked_places(input, options, places, result);
+    }
     if options.lock_boundary {
         locked.extend(boundary(input));
     }
@@ -196,6 +254,32 @@ fn check_locks(input: &Mesh, options: &Options, result: &Simplified) {
             assert!(*count > 0, "the locked vertex {vertex} at {position:?} is gone");
             *count -= 1;
         }
+    }
+}
+
+/// [`check_locks`] where vertices at one place are one: that stays, and those of its vertices that are named
+/// still are themselves.
+fn check_locked_places(input: &Mesh, options: &Options, places: &Places, result: &Simplified) {
+    let Some(sources) = &result.sources else { panic!("no sources") };
+    let place = |vertex: u32| places.of[vertex as usize];
+    let mut locked: BTreeSet<u32> = options.locked.iter().copied().map(place).collect();
+    locked.extend(places.tangled.iter().copied().map(place));
+    if options.lock_boundary {
+        locked.extend(boundary(&places.surface(input)));
+    }
+    let used = used(input, places);
+    let there: BTreeSet<u32> = used.iter().copied().map(place).collect();
+    let left: BTreeSet<u32> = sources.iter().copied().map(place).collect();
+    for &vertex in locked.intersection(&there) {
+        assert!(left.contains(&vertex) || result.topology_changed, "the locked vertex {vertex} is gone");
+    }
+    let Some(origins) = &result.origins else { return };
+    for vertex in used.into_iter().filter(|&vertex| locked.contains(&place(vertex))) {
+        let origin = origins[vertex as usize];
+        assert!(
+            origin == u32::MAX || sources[origin as usize] == vertex,
+            "the locked vertex {vertex} went into another"
+        );
     }
 }
 

@@ -79,7 +79,7 @@ fn levels_out_of_order_and_out_of_reach_say_so() {
     assert!(counts[2] >= 14, "{counts:?}");
     assert_eq!((levels[2].stopped_by, levels[3].stopped_by), (StoppedBy::Stuck, StoppedBy::Stuck));
     assert_eq!(levels[3].mesh.triangles().len(), levels[2].mesh.triangles().len());
-    check_target(&mesh, targets[0], &levels[0]);
+    check_target(&mesh, &Options { target: targets[0], ..options }, &levels[0]);
 }
 
 /// Topology given up for one level is given up for those after it, and said so.

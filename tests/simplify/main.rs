@@ -9,4 +9,6 @@ mod levels;
 mod meshes;
 mod metamorphic;
 mod multiple_choice;
+mod places;
+mod seams;
 mod zero_error;

@@ -9,14 +9,16 @@
 //! This is also where a run ends that is stuck: with [`Rules::any_topology`] the link condition no
 //! longer holds, holes close, and small components vanish whole.
 
+mod names;
 mod relax;
 
-use super::goal::{Counts, Goal};
+use super::goal::Goal;
+use crate::collapse::half_edge::{self, Terms};
 use crate::collapse::queue::Queue;
 use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, is_alive, is_open, neighbours};
 use crate::collapse::tile::blend_attributes;
-use crate::collapse::{Collapse, Edge, HalfEdge, Rules};
+use crate::collapse::{Collapse, Counts, Edge, HalfEdge, Rules};
 use crate::monitor::Cancelled;
 use crate::quadric::{Quadric, place};
 use glam::Vec3A;
@@ -75,13 +77,15 @@ pub(crate) struct Finish<'a> {
     stamp: u32,
     counts: Counts,
     scratch: Scratch,
+    around: Vec<u32>,
 }
 
 #[derive(Default)]
 struct Scratch {
     source: Ring,
     target: Ring,
-    source_corners: Vec<u32>,
+    /// With the corners of the source.
+    half_edge: half_edge::Scratch,
     target_corners: Vec<u32>,
     neighbours: [Vec<u32>; 2],
 }
@@ -116,16 +120,15 @@ impl<'a> Finish<'a> {
             stamp: 0,
             counts,
             scratch: Scratch::default(),
+            around: Vec::new(),
         };
         for vertex in 0..vertices as u32 {
             if !finish.refresh(vertex) {
                 finish.bury(vertex);
             }
         }
-        let mut around = Vec::new();
         for vertex in 0..vertices as u32 {
-            finish.gather_neighbours(vertex, &mut around);
-            finish.choose(vertex, &around, None);
+            finish.choose(vertex, None);
         }
         finish
     }
@@ -156,9 +159,7 @@ impl<'a> Finish<'a> {
             && let Some((_, vertex)) = self.queue.first()
         {
             if std::mem::take(&mut self.stale[vertex as usize]) {
-                self.refresh(vertex);
-                self.gather_neighbours(vertex, &mut around);
-                self.choose(vertex, &around, None);
+                self.choose(vertex, None);
                 continue;
             }
             let candidate = self.candidates[vertex as usize];
@@ -169,13 +170,9 @@ impl<'a> Finish<'a> {
                         report(self.counts)?;
                     }
                 }
-                Outcome::Illegal => {
-                    self.gather_neighbours(vertex, &mut around);
-                    self.choose(vertex, &around, Some(candidate));
-                }
+                Outcome::Illegal => self.choose(vertex, Some(candidate)),
                 Outcome::Dearer(cost) => {
-                    self.gather_neighbours(vertex, &mut around);
-                    let other = self.cheapest(vertex, &around, Some(candidate), |_, _| {});
+                    let other = self.cheapest(vertex, Some(candidate), &mut around);
                     let dearer = Candidate { cost, ..candidate };
                     self.set(vertex, if dearer.order() < other.order() { dearer } else { other });
                 }
@@ -189,6 +186,13 @@ impl<'a> Finish<'a> {
     /// a face.
     fn is_lazy(&self) -> bool {
         self.rules.half_edge && !self.rules.any_topology
+    }
+
+    /// What decides where vertices go. What gives up the topology gives up seams as well, but does not
+    /// open them.
+    fn terms(&self) -> Terms<'_> {
+        let terms = self.surface.terms();
+        Terms { cross_seams: terms.cross_seams || self.rules.any_topology, ..terms }
     }
 
     fn is_hub(&self, vertex: u32) -> bool {
@@ -250,12 +254,10 @@ impl<'a> Finish<'a> {
     /// Renews what is known about a vertex whose ring has changed; `false` if no face is left.
     fn refresh(&mut self, vertex: u32) -> bool {
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
+        self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
         let ring = &scratch.source;
-        let flags = &mut self.surface.flags[vertex as usize];
-        *flags = *flags & !flag::BOUNDARY | if ring.boundary { flag::BOUNDARY } else { 0 };
-        let quadric = if self.rules.half_edge { ring.quadric.for_half_edge() } else { ring.quadric };
-        self.quadrics[vertex as usize] = quadric;
+        self.flags_of(ring);
+        self.quadrics[vertex as usize] = ring.quadric;
         let alive = !ring.next().is_empty();
         self.scratch = scratch;
         alive
@@ -285,18 +287,10 @@ impl<'a> Finish<'a> {
         self.surface.flags[vertex as usize] & flag::LOCKED != 0
     }
 
-    /// The cost of the edge for its end `a`. Where vertices move it is the same from both ends to the
-    /// last bit; where they do not, it is that of `a` going to `b`.
+    /// The cost of the edge, the same from both ends to the last bit.
     fn cost(&self, a: u32, b: u32) -> f32 {
         if self.is_hub(a) || self.is_hub(b) {
             return f32::INFINITY;
-        }
-        if self.rules.half_edge {
-            let edge = self.position(b) - self.position(a);
-            let is_border = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
-            let stays = self.is_locked(a) || is_border(a) && !is_border(b);
-            let cost = if stays { f32::INFINITY } else { self.quadrics[a as usize].at(edge) };
-            return if cost.is_nan() { f32::INFINITY } else { cost };
         }
         let (a, b) = (a.min(b), a.max(b));
         let edge = self.position(b) - self.position(a);
@@ -312,19 +306,28 @@ impl<'a> Finish<'a> {
         if cost.is_nan() { f32::INFINITY } else { cost }
     }
 
+    /// The cheapest edge of `vertex`, or the next one after `failed`. `around` is room to work in.
+    fn cheapest(&mut self, vertex: u32, failed: Option<Candidate>, around: &mut Vec<u32>) -> Candidate {
+        if self.rules.half_edge {
+            return self.cheapest_target(vertex, failed);
+        }
+        self.gather_neighbours(vertex, around);
+        self.cheapest_edge(vertex, around, failed, |_| {})
+    }
+
     /// The cheapest edge of `vertex` among those to `around`, or the next one after `failed`; `seen`
     /// is shown them all.
-    fn cheapest(
+    fn cheapest_edge(
         &self,
         vertex: u32,
         around: &[u32],
         failed: Option<Candidate>,
-        mut seen: impl FnMut(&Self, Candidate),
+        mut seen: impl FnMut(Candidate),
     ) -> Candidate {
         let mut best = IMPOSSIBLE;
         for &partner in around {
             let candidate = Candidate { cost: self.cost(vertex, partner), partner };
-            seen(self, candidate);
+            seen(candidate);
             let possible = failed.is_none_or(|failed| failed.order() < candidate.order());
             if possible && candidate.order() < best.order() {
                 best = candidate;
@@ -333,9 +336,35 @@ impl<'a> Finish<'a> {
         best
     }
 
+    /// Where `vertex` goes most cheaply if vertices stay, or the next after `failed`.
+    fn cheapest_target(&mut self, vertex: u32, failed: Option<Candidate>) -> Candidate {
+        if self.is_locked(vertex) || self.is_hub(vertex) {
+            return IMPOSSIBLE;
+        }
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let Scratch { source, half_edge, .. } = &mut scratch;
+        self.gather(vertex, source, &mut half_edge.wedges.corners);
+        let own_flags = self.flags_of(source);
+        let failed = failed.map(|failed| (failed.cost, failed.partner));
+        let flags = |neighbour: u32| self.surface.flags[neighbour as usize];
+        let best = self.terms().cheapest(source, own_flags, flags, failed, f32::INFINITY, half_edge);
+        self.scratch = scratch;
+        best.filter(|(cost, _)| *cost < f32::INFINITY)
+            .map_or(IMPOSSIBLE, |(cost, partner)| Candidate { cost, partner })
+    }
+
+    /// The flags of a ring's vertex, brought up to date.
+    fn flags_of(&mut self, ring: &Ring) -> u8 {
+        let flags = &mut self.surface.flags[ring.vertex as usize];
+        *flags = *flags & !flag::BOUNDARY | if ring.boundary { flag::BOUNDARY } else { 0 };
+        *flags
+    }
+
     /// Puts the cheapest edge of `vertex` in the queue, or the next one after `failed`.
-    fn choose(&mut self, vertex: u32, around: &[u32], failed: Option<Candidate>) {
-        let best = self.cheapest(vertex, around, failed, |_, _| {});
+    fn choose(&mut self, vertex: u32, failed: Option<Candidate>) {
+        let mut around = std::mem::take(&mut self.around);
+        let best = self.cheapest(vertex, failed, &mut around);
+        self.around = around;
         self.set(vertex, best);
     }
 
@@ -353,7 +382,7 @@ impl<'a> Finish<'a> {
         let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(ends[0], &mut scratch.source, &mut scratch.source_corners);
+        self.gather(ends[0], &mut scratch.source, &mut scratch.half_edge.wedges.corners);
         self.gather(ends[1], &mut scratch.target, &mut scratch.target_corners);
         let outcome = self.collapse_gathered(ends, price, goal, &mut scratch);
         let Outcome::Done = outcome else {
@@ -409,7 +438,7 @@ impl<'a> Finish<'a> {
         goal: Goal,
         scratch: &mut Scratch,
     ) -> Outcome {
-        let Scratch { source: source_ring, target: target_ring, source_corners, target_corners, neighbours } =
+        let Scratch { source: source_ring, target: target_ring, half_edge, target_corners, neighbours } =
             scratch;
         let edge = Edge {
             source: source_ring,
@@ -425,9 +454,13 @@ impl<'a> Finish<'a> {
         }
         let mut doomed = Vec::new();
         if self.rules.any_topology {
-            match relax::coincident(source_ring, target_ring, source_corners, target_corners) {
+            match relax::coincident(source_ring, target_ring, &half_edge.wedges.corners, target_corners) {
                 Some(faces) => doomed = faces,
                 None => return Outcome::Illegal,
+            }
+            let corners = [&half_edge.wedges.corners[..], target_corners];
+            if self.lays_bare(source_ring, target_ring, corners, &doomed) {
+                return Outcome::Illegal;
             }
         }
         let (after, before) = source_ring.occurrences(target);
@@ -435,15 +468,35 @@ impl<'a> Finish<'a> {
         if matches!(goal, Goal::Faces(_)) && faces > goal.excess(self.counts) + 1 {
             return Outcome::Illegal;
         }
+        let own_flags = self.surface.flags[source as usize];
+        let terms = self.terms();
+        let half_edge::Scratch { wedges, moves, .. } = half_edge;
+        let is_plain = !self.rules.half_edge || terms.are_none();
+        if !is_plain {
+            wedges.look_up(&terms.wedges);
+            if !terms.find_moves(source_ring, own_flags, wedges, target, moves) {
+                return Outcome::Illegal;
+            }
+        }
         let loss = self.loss(&doomed, Vec3A::from_vec4(collapse.point), [source, target]);
         if loss > price {
             return Outcome::Dearer(loss);
         }
+        let edge = self.position(target) - self.position(source);
+        let error = if is_plain { 0.0 } else { terms.attribute_error(source_ring, edge, half_edge) };
+        let is_counted = matches!(goal, Goal::Vertices(_)) && !self.surface.wedges.is_empty();
+        let losing =
+            if is_counted { self.losing_names([source, target], source_ring, &doomed) } else { Vec::new() };
+        let names_before = self.count_names(&losing);
         for face in doomed {
             self.kill(face);
         }
-        self.execute(source, target, &collapse, source_corners);
-        self.counts.remove(Counts { faces, vertices: 1 });
+        self.execute(source, target, &collapse, &half_edge.wedges.corners);
+        if !is_plain {
+            self.execute_wedges(source, target, error, half_edge);
+        }
+        let vertices = if losing.is_empty() { 1 } else { names_before - self.count_names(&losing) };
+        self.counts.remove(Counts { faces, vertices });
         Outcome::Done
     }
 
@@ -474,7 +527,7 @@ impl<'a> Finish<'a> {
         self.first[from] = NONE;
         self.degrees[from] = 0;
         let surface = &mut *self.surface;
-        if let Some(sources) = &surface.sources {
+        if let (true, Some(sources)) = (surface.wedges.is_empty(), &surface.sources) {
             let done = HalfEdge { source: sources[from], target: sources[into] };
             surface.collapses.iter_mut().for_each(|collapses| collapses.push(done));
         }
@@ -496,7 +549,9 @@ impl<'a> Finish<'a> {
     /// Takes a vertex without faces off the surface.
     fn bury(&mut self, vertex: u32) {
         let flags = &mut self.surface.flags[vertex as usize];
-        self.counts.vertices -= usize::from(*flags & flag::DEAD == 0);
+        // Where there are wedges, their names have been counted as they went.
+        let counts = self.surface.wedges.is_empty() && *flags & flag::DEAD == 0;
+        self.counts.vertices -= usize::from(counts);
         *flags |= flag::DEAD;
         if let Some(merged) = self.surface.merged.get_mut(vertex as usize) {
             *merged = NONE;
@@ -505,8 +560,13 @@ impl<'a> Finish<'a> {
     }
 
     /// Renews the candidates after the quadrics of `around` have changed: theirs, and those of the
-    /// vertices beyond whose cheapest edge led here or should now.
+    /// vertices beyond whose cheapest edge led here or should now. Where vertices stay, nothing beyond has
+    /// changed.
     fn update(&mut self, around: &[u32]) {
+        if self.rules.half_edge {
+            around.iter().for_each(|&vertex| self.choose(vertex, None));
+            return;
+        }
         self.stamp += 1;
         for &vertex in around {
             self.changed[vertex as usize] = self.stamp;
@@ -515,14 +575,9 @@ impl<'a> Finish<'a> {
         let mut beyond = Vec::new();
         for &vertex in around {
             self.gather_neighbours(vertex, &mut ring);
-            let best = self.cheapest(vertex, &ring, None, |finish, candidate| {
-                if finish.changed[candidate.partner as usize] != finish.stamp {
-                    let cost = if finish.rules.half_edge {
-                        finish.cost(candidate.partner, vertex)
-                    } else {
-                        candidate.cost
-                    };
-                    beyond.push((candidate.partner, Candidate { cost, partner: vertex }));
+            let best = self.cheapest_edge(vertex, &ring, None, |candidate| {
+                if self.changed[candidate.partner as usize] != self.stamp {
+                    beyond.push((candidate.partner, Candidate { partner: vertex, ..candidate }));
                 }
             });
             self.set(vertex, best);
@@ -533,8 +588,7 @@ impl<'a> Finish<'a> {
                 && (self.changed[partner as usize] == self.stamp
                     || self.surface.flags[partner as usize] & flag::DEAD != 0);
             if led_here {
-                self.gather_neighbours(outer, &mut ring);
-                self.choose(outer, &ring, None);
+                self.choose(outer, None);
             } else if candidate.order() < self.candidates[outer as usize].order() {
                 self.set(outer, candidate);
             }

@@ -7,7 +7,7 @@
 
 use super::{Finish, IMPOSSIBLE};
 use crate::collapse::ring::Ring;
-use crate::collapse::surface::NONE;
+use crate::collapse::surface::{NONE, flag};
 use crate::mesh::partition::Partition;
 use crate::quadric::Quadric;
 use glam::Vec3A;
@@ -31,13 +31,53 @@ impl Finish<'_> {
         doomed.iter().map(of_face).sum()
     }
 
+    /// Whether a collapse takes the last face off an edge that lies on others, nobody knows how: these would
+    /// be left with a crack. `corners` are those of both rings.
+    pub(super) fn lays_bare(
+        &self,
+        source: &Ring,
+        target: &Ring,
+        [source_corners, target_corners]: [&[u32]; 2],
+        doomed: &[u32],
+    ) -> bool {
+        let is_tangled = |vertex: u32| self.surface.flags[vertex as usize] & flag::TANGLED == flag::TANGLED;
+        let is_doomed = |corner: &u32| doomed.binary_search(&(corner >> 2)).is_ok();
+        // The faces of a ring, and whether they are there after the collapse into, or of, `other`.
+        let faces = |ring: &Ring, corners: &[u32], other: u32| -> Vec<([u32; 2], bool)> {
+            let names = ring.names().zip(corners);
+            names
+                .map(|((next, previous), corner)| {
+                    let survives = next != other && previous != other && !is_doomed(corner);
+                    ([next, previous], survives)
+                })
+                .collect()
+        };
+        let of_source = faces(source, source_corners, target.vertex);
+        let lies_across = |&(names, survives): &([u32; 2], bool)| {
+            !survives && !names.contains(&target.vertex) && names.into_iter().all(is_tangled)
+        };
+        if of_source.iter().any(lies_across) {
+            return true;
+        }
+        if !is_tangled(target.vertex) {
+            return false;
+        }
+        let of_target = faces(target, target_corners, source.vertex);
+        let keeps = |vertex: u32| {
+            let mut all = of_source.iter().chain(&of_target);
+            all.any(|(names, survives)| *survives && names.contains(&vertex))
+        };
+        let vanishing = of_target.iter().filter(|(_, survives)| !survives).flat_map(|(names, _)| names);
+        vanishing.copied().any(|vertex| vertex != source.vertex && is_tangled(vertex) && !keeps(vertex))
+    }
+
     /// Gives each fan of faces around `vertex` but the first a vertex of its own: a collapse that
     /// closes a hole or joins two borders leaves vertices behind at which surfaces only touch. The
     /// new vertices are added to `around`.
     pub(super) fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.source_corners);
-        let mut fans = Partition::new(scratch.source_corners.len());
+        self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        let mut fans = Partition::new(scratch.half_edge.wedges.corners.len());
         let names = (0..).zip(scratch.source.names());
         let mut ends: Vec<(u32, u32)> =
             names.flat_map(|(face, (next, previous))| [(next, face), (previous, face)]).collect();
@@ -46,9 +86,10 @@ impl Finish<'_> {
             fans.unite(pair[0].1, pair[1].1);
         }
         if fans.sets() > 1 {
+            let names_before = self.count_names(&[vertex]);
             // A fan is named by its first face.
-            let mut owners = Vec::with_capacity(scratch.source_corners.len());
-            for face in 0..scratch.source_corners.len() as u32 {
+            let mut owners = Vec::with_capacity(scratch.half_edge.wedges.corners.len());
+            for face in 0..scratch.half_edge.wedges.corners.len() as u32 {
                 let fan = fans.find(face);
                 owners.push(match fan {
                     0 => vertex,
@@ -59,11 +100,18 @@ impl Finish<'_> {
             }
             self.first[vertex as usize] = NONE;
             self.degrees[vertex as usize] = 0;
-            for (&corner, &owner) in scratch.source_corners.iter().zip(&owners).rev() {
+            for (&corner, &owner) in scratch.half_edge.wedges.corners.iter().zip(&owners).rev() {
                 self.surface.faces[(corner >> 2) as usize][(corner & 3) as usize].store(owner, Relaxed);
                 self.next[corner as usize] = std::mem::replace(&mut self.first[owner as usize], corner);
                 self.degrees[owner as usize] += 1;
             }
+            owners.sort_unstable();
+            owners.dedup();
+            self.counts.vertices += if self.surface.wedges.is_empty() {
+                owners.len() - 1
+            } else {
+                self.count_names(&owners) - names_before
+            };
         }
         self.scratch = scratch;
     }
@@ -85,13 +133,18 @@ impl Finish<'_> {
             surface.merged.push(name);
         }
         surface.sources.iter_mut().for_each(|sources| copy(sources, index));
+        if !surface.absorbed.is_empty() {
+            surface.absorbed.push(NONE);
+        }
+        if !surface.attribute_errors.is_empty() {
+            copy(&mut surface.attribute_errors, index);
+        }
         self.first.push(NONE);
         self.degrees.push(0);
         self.quadrics.push(Quadric::default());
         self.candidates.push(IMPOSSIBLE);
         self.stale.push(false);
         self.changed.push(0);
-        self.counts.vertices += 1;
         name
     }
 }
