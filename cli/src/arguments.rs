@@ -1,12 +1,15 @@
 //! What can be said on the command line, and what it means to the engine.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use decimesh::mesh::Weld;
-use decimesh::{Options, Selection, Target, Topology};
+use decimesh::{AttributeWeights, Options, Placement, Selection, Target, Topology};
+
+use crate::failure::Failure;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -130,6 +133,9 @@ impl FromStr for ErrorBound {
 /// How to simplify, whatever the target.
 #[derive(Debug, Args)]
 pub(crate) struct EngineArguments {
+    /// What simplifies.
+    #[arg(long, value_enum, default_value_t = EngineName::Hqms)]
+    pub(crate) engine: EngineName,
     /// Which collapses a pass takes: all below a sampled threshold of cost, or the cheapest of a
     /// replacement-selection heap.
     #[arg(long, value_enum, default_value_t = SelectionName::Threshold)]
@@ -146,9 +152,28 @@ pub(crate) struct EngineArguments {
     #[arg(long)]
     lock_boundary: bool,
     /// Let the two sides of a seam (vertices at one place with different attributes) part, like
-    /// borders; they are kept as they are otherwise.
+    /// borders. Otherwise they stay closed: hqms keeps them as they are, indices goes along them.
     #[arg(long)]
     open_seams: bool,
+    /// indices: go across seams too where the attributes, by their weights, allow it. The surface stays
+    /// closed.
+    #[arg(long)]
+    cross_seams: bool,
+    /// indices: what a difference of 1 in a normal's coordinate weighs beside a distance as long as the mesh.
+    #[arg(long, value_name = "W", default_value_t = 0.0, allow_hyphen_values = true)]
+    normal_weight: f32,
+    /// indices: the same for texture coordinates.
+    #[arg(long, value_name = "W", default_value_t = 0.0, allow_hyphen_values = true)]
+    uv_weight: f32,
+    /// indices: the same for the channels of colours, 0 to 1.
+    #[arg(long, value_name = "W", default_value_t = 0.0, allow_hyphen_values = true)]
+    color_weight: f32,
+    /// multiple-choice: of how many vertices drawn at random the cheapest goes.
+    #[arg(long, value_name = "D", default_value = "6")]
+    pub(crate) candidates: NonZeroU32,
+    /// multiple-choice: where the random numbers start.
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    pub(crate) seed: u64,
     /// Keep all holes, handles and components, even if the target is missed.
     #[arg(long, conflicts_with = "allow_topology")]
     keep_topology: bool,
@@ -174,6 +199,17 @@ pub(crate) struct EngineArguments {
     pub(crate) threads: usize,
 }
 
+/// The engines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EngineName {
+    /// Vertices go where the error is least.
+    Hqms,
+    /// No vertex is made or moved: the result is indices into the vertices that there are.
+    Indices,
+    /// The same by the visual cost and random choices of Jia, Tang and Pan: slower and coarser, to compare.
+    MultipleChoice,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum SelectionName {
     Threshold,
@@ -181,6 +217,16 @@ enum SelectionName {
 }
 
 impl EngineArguments {
+    /// Fails where an option is for another engine than the one asked for.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        let weighted = [self.normal_weight, self.uv_weight, self.color_weight].iter().any(|&w| w != 0.0);
+        if self.engine != EngineName::Indices && (weighted || self.cross_seams) {
+            let message = "weights of attributes and --cross-seams are for --engine indices";
+            return Err(Failure::Options(message.into()));
+        }
+        Ok(())
+    }
+
     /// The engine's options for `target`.
     pub(crate) fn options(&self, target: Target) -> Options {
         Options {
@@ -191,6 +237,16 @@ impl EngineArguments {
             topology: if self.keep_topology { Topology::Keep } else { Topology::RelaxIfStuck },
             lock_boundary: self.lock_boundary,
             keep_seams: !self.open_seams,
+            placement: match self.engine {
+                EngineName::Hqms => Placement::Optimal,
+                EngineName::Indices | EngineName::MultipleChoice => Placement::Existing,
+            },
+            attribute_weights: AttributeWeights {
+                normals: self.normal_weight,
+                uvs: self.uv_weight,
+                colors: self.color_weight,
+            },
+            cross_seams: self.cross_seams,
             threads: self.threads,
             ..Options::new(target)
         }
@@ -396,8 +452,24 @@ mod tests {
             Selection::ReplacementSelection { records: 7 }
         );
         assert!(options("--lock-boundary").lock_boundary);
+        assert_eq!(options("--engine indices").placement, Placement::Existing);
+        let weighted =
+            options("--engine indices --normal-weight 1 --uv-weight 2 --color-weight 3 --cross-seams");
+        assert_eq!(weighted.attribute_weights, AttributeWeights { normals: 1.0, uvs: 2.0, colors: 3.0 });
+        assert!(weighted.cross_seams);
         assert_eq!(options("--threads 3").threads, 3);
         assert!(parse("--ratio 0.5 --keep-topology --allow-topology").is_err());
+    }
+
+    #[test]
+    fn options_of_another_engine_are_refused() {
+        let check = |line: &str| parse(&format!("--ratio 0.5 {line}")).unwrap().engine.check();
+        for line in ["", "--engine indices --uv-weight 1", "--engine indices --cross-seams"] {
+            assert!(check(line).is_ok(), "{line}");
+        }
+        for line in ["--uv-weight 1", "--cross-seams", "--engine multiple-choice --normal-weight 0.5"] {
+            assert!(matches!(check(line), Err(Failure::Options(_))), "{line}");
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use decimesh::lod::{NestedLevels, Progressive};
 use decimesh::{Mesh, Options, Placement, Simplified, Target};
 
 use crate::allocation::peak_bytes;
-use crate::arguments::LevelsArguments;
+use crate::arguments::{EngineName, LevelsArguments};
 use crate::failure::Failure;
 use crate::files::{
     bytes, check_directory, check_format, directory_of, file_name, make_directory, read, write,
@@ -22,6 +22,10 @@ use crate::report::{
 
 pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
     let LevelsArguments { input, directory, count, ratio, engine, .. } = arguments;
+    engine.check()?;
+    if engine.engine == EngineName::MultipleChoice {
+        return Err(Failure::Options("levels are made by the engines hqms and indices".into()));
+    }
     if !(*ratio > 0.0 && *ratio < 1.0) {
         return Err(Failure::Options(format!(
             "the ratio of levels must be above 0 and below 1, not {ratio}"

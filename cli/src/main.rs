@@ -4,6 +4,7 @@ mod allocation;
 mod arguments;
 mod compare;
 mod demo;
+mod engine;
 mod failure;
 mod files;
 mod info;

@@ -32,8 +32,10 @@ pub(crate) struct SimplifyReport {
     /// Vertices that were not to move: borders and seams.
     pub(crate) locked: usize,
     pub(crate) topology_changed: bool,
-    /// Estimated, in units of the positions.
+    /// Estimated, in units of the positions; measured for the engine multiple-choice.
     pub(crate) error: f32,
+    /// Estimated, weighted; 0 where no attribute has a weight.
+    pub(crate) attribute_error: f32,
     pub(crate) passes: usize,
 }
 

@@ -2,39 +2,43 @@
 
 use std::time::Instant;
 
-use decimesh::{Mesh, Simplified, Topology, mesh};
+use decimesh::Simplified;
 
 use crate::allocation::peak_bytes;
 use crate::arguments::SimplifyArguments;
+use crate::engine;
 use crate::failure::Failure;
 use crate::files::{check_directory, check_output, read, write};
 use crate::progress::Progress;
 use crate::report::{self, SimplifyReport, grouped, significant};
 
 pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
-    let SimplifyArguments { input, output, target, engine, .. } = arguments;
+    let SimplifyArguments { input, output, target, engine: engine_arguments, .. } = arguments;
+    engine_arguments.check()?;
     check_output(output)?;
     arguments.report.as_deref().map_or(Ok(()), check_directory)?;
 
     let begin = Instant::now();
-    let original = read(input, engine.weld())?;
+    let original = read(input, engine_arguments.weld())?;
     let seconds_read = begin.elapsed().as_secs_f64();
 
-    let options = engine.options(target.target(original.diagonal()));
+    let target = target.target(original.diagonal());
+    let options = engine_arguments.options(target);
     let progress = Progress::new(arguments.quiet);
     let begin = Instant::now();
     let (result, peak_bytes) = peak_bytes(|| {
-        progress.during("simplifying", |monitor| decimesh::simplify(&original, &options, monitor))
+        progress
+            .during("simplifying", |monitor| engine::simplify(&original, target, engine_arguments, monitor))
     });
     let seconds = begin.elapsed().as_secs_f64();
     let result = result?;
 
     if arguments.verify {
-        verify(&original, &result, options.topology)?;
+        engine::check(&original, &result, &options)?;
     }
 
     let begin = Instant::now();
-    write(&result.mesh, output, engine.ascii)?;
+    write(&result.mesh, output, engine_arguments.ascii)?;
     let seconds_write = begin.elapsed().as_secs_f64();
 
     report::warn_if_stuck(&output.display().to_string(), &result);
@@ -52,6 +56,7 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         locked: result.locked,
         topology_changed: result.topology_changed,
         error: result.error,
+        attribute_error: result.attribute_error,
         passes: result.passes,
     };
     if let Some(path) = &arguments.report {
@@ -61,13 +66,6 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         report::print(&summary(&report, &result, original.diagonal()))?;
     }
     Ok(())
-}
-
-/// Fails if an invariant is broken. A change of the topology is none only where it was allowed and is
-/// admitted.
-fn verify(original: &Mesh, result: &Simplified, topology: Topology) -> Result<(), Failure> {
-    let topology_kept = topology == Topology::Keep || !result.topology_changed;
-    mesh::verify(original, &result.mesh, topology_kept).map_err(Failure::Verification)
 }
 
 fn threads(asked: usize) -> usize {
@@ -90,36 +88,4 @@ fn summary(report: &SimplifyReport, result: &Simplified, diagonal: f64) -> Strin
         significant(f64::from(error)),
         report.stopped_by,
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use decimesh::StoppedBy;
-
-    use super::*;
-
-    fn simplified(mesh: Mesh, topology_changed: bool) -> Simplified {
-        let (stopped_by, error, locked, passes) = (StoppedBy::Target, 0.0, 0, 1);
-        let (origins, sources, collapses) = (None, None, None);
-        Simplified { mesh, stopped_by, error, locked, topology_changed, origins, sources, collapses, passes }
-    }
-
-    fn mesh(triangles: &[[u32; 3]]) -> Mesh {
-        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Mesh::new(positions, triangles.to_vec()).unwrap()
-    }
-
-    #[test]
-    fn topology_may_change_where_that_is_allowed_and_admitted() {
-        let closed = mesh(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
-        let opened = mesh(&[[0, 2, 1], [0, 1, 3], [1, 2, 3]]);
-        assert!(verify(&closed, &simplified(closed.clone(), false), Topology::Keep).is_ok());
-        assert!(verify(&closed, &simplified(opened.clone(), true), Topology::RelaxIfStuck).is_ok());
-        for (admitted, topology) in
-            [(false, Topology::RelaxIfStuck), (false, Topology::Keep), (true, Topology::Keep)]
-        {
-            let failure = verify(&closed, &simplified(opened.clone(), admitted), topology).unwrap_err();
-            assert!(matches!(failure, Failure::Verification(_)), "{failure}");
-        }
-    }
 }

@@ -99,7 +99,7 @@ fn report_agrees_with_the_files() {
     assert_eq!(report["stopped_by"], "target");
     assert!(report["topology_changed"].is_boolean());
     assert_eq!(count(&report, "locked"), 0);
-    assert_eq!(report.as_object().unwrap().len(), 14, "{report}");
+    assert_eq!(report.as_object().unwrap().len(), 15, "{report}");
     assert_eq!(bench.files(), ["ball.ply", "out.ply", "report.json"]);
 }
 
@@ -207,4 +207,42 @@ fn failures_have_their_codes_and_change_nothing() {
     bench.run_badly("simplify ball.ply out.ply --ratio 1.5", 5, "ratio");
     bench.run_badly("simplify ball.ply out.ply --ratio -0.5", 5, "ratio");
     bench.run_badly("simplify ball.ply out.ply --ratio 0.5 --weld=-1", 5, "weld");
+}
+
+#[test]
+fn the_engine_of_indices_makes_and_moves_no_vertex() {
+    let bench = bench();
+    let original = bench.read("ball.ply");
+    for engine in ["indices", "multiple-choice"] {
+        bench.run_well(&format!("simplify ball.ply out.ply --triangles 400 --engine {engine} --verify"));
+        let written = bench.read("out.ply");
+        assert!((399..=400).contains(&written.triangles().len()), "{engine}");
+        assert!(
+            written.positions().iter().all(|position| original.positions().contains(position)),
+            "{engine}"
+        );
+    }
+}
+
+#[test]
+fn the_seed_of_multiple_choice_says_what_is_drawn() {
+    let bench = bench();
+    for (name, options) in [("a", ""), ("b", "--seed 0"), ("c", "--seed 1"), ("d", "--candidates 20")] {
+        let line = format!("simplify ball.ply {name}.ply --triangles 400 --engine multiple-choice {options}");
+        bench.run_well(&line);
+    }
+    assert_eq!(bench.bytes("a.ply"), bench.bytes("b.ply"));
+    assert_ne!(bench.bytes("a.ply"), bench.bytes("c.ply"));
+    assert_ne!(bench.bytes("a.ply"), bench.bytes("d.ply"));
+}
+
+#[test]
+fn what_an_engine_does_not_do_is_refused() {
+    let bench = bench();
+    let part = "goes by --triangles or --ratio";
+    bench.run_badly("simplify ball.ply out.ply --vertices 9 --engine multiple-choice", 5, part);
+    bench.run_badly("simplify ball.ply out.ply --ratio 2 --engine multiple-choice", 5, "between 0 and 1");
+    bench.run_badly("simplify ball.ply out.ply --ratio 0.5 --uv-weight 1", 5, "--engine indices");
+    let negative = "simplify ball.ply out.ply --ratio 0.5 --engine indices --uv-weight=-1";
+    bench.run_badly(negative, 5, "the weight of uvs");
 }
