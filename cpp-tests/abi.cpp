@@ -60,6 +60,9 @@ static_assert(is(decimesh::Encoding::binary, DECIMESH_ENCODING_BINARY, 0));
 static_assert(is(decimesh::Encoding::binary_big_endian, DECIMESH_ENCODING_BINARY_BIG_ENDIAN, 1));
 static_assert(is(decimesh::Encoding::ascii, DECIMESH_ENCODING_ASCII, 2));
 static_assert(DECIMESH_INDEX_U16 == 1 && DECIMESH_INDEX_U32 == 2);
+static_assert(decimesh::vertex_flag::lock == DECIMESH_VERTEX_LOCK && DECIMESH_VERTEX_LOCK == 1);
+static_assert(decimesh::vertex_flag::protect == DECIMESH_VERTEX_PROTECT && DECIMESH_VERTEX_PROTECT == 2);
+static_assert(decimesh::vertex_flag::prioritize == DECIMESH_VERTEX_PRIORITIZE && DECIMESH_VERTEX_PRIORITIZE == 4);
 
 }   // namespace
 

@@ -133,6 +133,23 @@ TEST_CASE("callbacks: exceptions arrive from every step as they were thrown") {
         measuring.progress = progress;
         decimesh::deviation(mesh, mesh, measuring);
     });
+    const std::vector<decimesh::Target> targets = {decimesh::Target::ratio(0.3), decimesh::Target::ratio(0.1)};
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        options.progress = progress;
+        options.track_origins = false;
+        decimesh::NestedLevels::build(mesh, targets, options);
+    });
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        options.progress = progress;
+        decimesh::Progressive::build(mesh, targets, options);
+    });
+    decimesh::NestedLevels levels = decimesh::NestedLevels::build(mesh, targets);
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        decimesh::BoundOptions bounding;
+        bounding.progress = progress;
+        decimesh::bound(mesh, levels.mesh(), bounding);
+        levels.certify(bounding);
+    });
     CHECK(bytes_of(mesh) == before);
 }
 
@@ -166,6 +183,11 @@ TEST_CASE("callbacks: answering false is an exception of its own") {
     decimesh::DeviationOptions measuring;
     measuring.progress = options.progress;
     CHECK_THROWS_AS(decimesh::deviation(mesh, mesh, measuring), decimesh::Cancelled);
+    CHECK_THROWS_AS(decimesh::NestedLevels::build(mesh, {options.target}, options), decimesh::Cancelled);
+    CHECK_THROWS_AS(decimesh::Progressive::build(mesh, {options.target}, options), decimesh::Cancelled);
+    decimesh::BoundOptions bounding;
+    bounding.progress = options.progress;
+    CHECK_THROWS_AS(decimesh::bound(mesh, mesh, bounding), decimesh::Cancelled);
     try {
         decimesh::simplify(mesh, options);
     } catch (const decimesh::Error &error) {

@@ -37,18 +37,22 @@ decimesh_status simplify(const decimesh_buffers *buffers, const decimesh_simplif
     return status;
 }
 
+/// A call that makes levels, of one kind or another.
+template <class Handle, decimesh_status (*Build)(const decimesh_mesh *, const decimesh_simplify_options *,
+                                                 const double *, std::size_t, Handle **),
+          void (*Destroy)(Handle *)>
 decimesh_status build_levels(const decimesh_buffers *buffers, const decimesh_simplify_options *options) {
     const decimesh::Mesh mesh = made(buffers);
     const Bytes before = bytes_of(mesh);
-    decimesh_levels *levels = nobody<decimesh_levels>();
+    Handle *levels = nobody<Handle>();
     // The values that levels have are their own; bad ones must be refused here as well.
     const double value = options == nullptr ? 0.5 : options->target_value;
     const double values[] = {value, value};
-    const decimesh_status status = decimesh_levels_build(mesh.get(), options, values, 2, &levels);
-    CHECK((status == DECIMESH_OK) == (levels != nobody<decimesh_levels>()));
+    const decimesh_status status = Build(mesh.get(), options, values, 2, &levels);
+    CHECK((status == DECIMESH_OK) == (levels != nobody<Handle>()));
     CHECK(bytes_of(mesh) == before);
     if (status == DECIMESH_OK) {
-        decimesh_levels_destroy(levels);
+        Destroy(levels);
     }
     return status;
 }
@@ -89,7 +93,13 @@ const Named in_place_call = {"decimesh_simplify_in_place", simplify_in_place};
 
 const std::array<Named, 3> on_buffers = {
     Named{"decimesh_mesh_from_buffers", from_buffers}, indices_call, in_place_call};
-const std::array<Named, 4> on_options = {
-    Named{"decimesh_simplify", simplify}, Named{"decimesh_levels_build", build_levels}, indices_call, in_place_call};
+const std::array<Named, 6> on_options = {
+    Named{"decimesh_simplify", simplify},
+    Named{"decimesh_levels_build", build_levels<decimesh_levels, decimesh_levels_build, decimesh_levels_destroy>},
+    Named{"decimesh_nested_build", build_levels<decimesh_nested, decimesh_nested_build, decimesh_nested_destroy>},
+    Named{"decimesh_progressive_build",
+          build_levels<decimesh_progressive, decimesh_progressive_build, decimesh_progressive_destroy>},
+    indices_call,
+    in_place_call};
 
 }   // namespace calls

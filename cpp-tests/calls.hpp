@@ -26,8 +26,8 @@ struct Named {
 
 /// Those that take buffers. The first, which makes a mesh, takes no options.
 extern const std::array<Named, 3> on_buffers;
-/// Those that take options. The first two make a mesh of the buffers, which must be good, before.
-extern const std::array<Named, 4> on_options;
+/// Those that take options. Those that make handles make a mesh of the buffers, which must be good, before.
+extern const std::array<Named, 6> on_options;
 
 inline decimesh_simplify_options default_options() {
     decimesh_simplify_options options;

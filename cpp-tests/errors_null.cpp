@@ -56,6 +56,7 @@ TEST_CASE("errors: NULL meshes and paths are named") {
     decimesh_levels *levels = nobody<decimesh_levels>();
     auto statistics = calls::untouched_struct<decimesh_statistics>();
     auto result = calls::untouched_struct<decimesh_deviation_result>();
+    auto bound = calls::untouched_struct<decimesh_bound_result>();
     const auto refused = [](decimesh_status status, const char *words) {
         check_refused(status, DECIMESH_ERROR_NULL, {words});
     };
@@ -75,8 +76,12 @@ TEST_CASE("errors: NULL meshes and paths are named") {
     refused(decimesh_deviation(nullptr, mesh, nullptr, &result), "a is NULL");
     refused(decimesh_deviation(mesh, nullptr, nullptr, &result), "b is NULL");
     refused(decimesh_deviation(mesh, mesh, nullptr, nullptr), "result is NULL");
+    refused(decimesh_bound(nullptr, mesh, nullptr, &bound), "a is NULL");
+    refused(decimesh_bound(mesh, nullptr, nullptr, &bound), "b is NULL");
+    refused(decimesh_bound(mesh, mesh, nullptr, nullptr), "result is NULL");
     CHECK(made == nobody<decimesh_mesh>());
     CHECK(levels == nobody<decimesh_levels>());
+    CHECK(calls::is_untouched(bound));
     CHECK(calls::is_untouched(statistics));
     CHECK(calls::is_untouched(result));
 }
@@ -95,6 +100,11 @@ TEST_CASE("errors: levels that are NULL or do not exist") {
     check_refused(decimesh_levels_report(nullptr, 0, &report), DECIMESH_ERROR_NULL, {"levels is NULL"});
     check_refused(decimesh_levels_report(levels, 0, nullptr), DECIMESH_ERROR_NULL, {"report is NULL"});
     check_refused(decimesh_levels_report(levels, 3, &report), DECIMESH_ERROR_OUT_OF_RANGE, {"level 3"});
+    const auto *groups = nobody<const std::uint32_t>();
+    check_refused(decimesh_levels_groups(nullptr, 0, &groups), DECIMESH_ERROR_NULL, {"levels is NULL"});
+    check_refused(decimesh_levels_groups(levels, 0, nullptr), DECIMESH_ERROR_NULL, {"groups is NULL"});
+    check_refused(decimesh_levels_groups(levels, 1, &groups), DECIMESH_ERROR_OUT_OF_RANGE, {"level 1"});
+    CHECK(groups == nobody<const std::uint32_t>());
     check_refused(decimesh_levels_select(nullptr, 1, &level), DECIMESH_ERROR_NULL, {"levels is NULL"});
     check_refused(decimesh_levels_select(levels, 1, nullptr), DECIMESH_ERROR_NULL, {"level is NULL"});
     check_refused(decimesh_levels_select(levels, NAN, &level), DECIMESH_ERROR_NOT_FINITE, {"max_error"});
@@ -113,6 +123,8 @@ TEST_CASE("errors: what cannot fail takes NULL") {
     decimesh_simplify_report_init(nullptr, sizeof(decimesh_simplify_report));
     decimesh_deviation_options_init(nullptr, sizeof(decimesh_deviation_options));
     decimesh_deviation_result_init(nullptr, sizeof(decimesh_deviation_result));
+    decimesh_bound_options_init(nullptr, sizeof(decimesh_bound_options));
+    decimesh_bound_result_init(nullptr, sizeof(decimesh_bound_result));
     CHECK(decimesh_mesh_vertex_count(nullptr) == 0);
     CHECK(decimesh_mesh_triangle_count(nullptr) == 0);
     CHECK(decimesh_levels_count(nullptr) == 0);

@@ -25,7 +25,7 @@ TEST_CASE("simplify: the defaults are the library's") {
     decimesh_simplify_options library;
     decimesh_simplify_options_init(&library, sizeof library);
     const Options defaults;
-    const decimesh::detail::SimplifyCall call(defaults, 0);
+    const decimesh::detail::SimplifyCall call(defaults, 0, 0);
     CHECK(std::memcmp(&call.raw, &library, sizeof library) == 0);
 
     decimesh_deviation_options measured;
@@ -34,6 +34,12 @@ TEST_CASE("simplify: the defaults are the library's") {
     CHECK(measure.samples == measured.samples);
     CHECK(measure.seed == measured.seed);
     CHECK(measure.threads == measured.threads);
+
+    decimesh_bound_options bounded;
+    decimesh_bound_options_init(&bounded, sizeof bounded);
+    const decimesh::BoundOptions bound;
+    const decimesh::detail::BoundCall bounding(bound);
+    CHECK(std::memcmp(&bounding.raw, &bounded, sizeof bounded) == 0);
 }
 
 TEST_CASE("simplify: an init function writes as much as its caller has room for") {

@@ -59,6 +59,32 @@ TEST_CASE("threads: one mesh and one chain serve many with the same bytes") {
     CHECK(bytes_of(mesh) == input);
 }
 
+TEST_CASE("threads: one progressive mesh has a player in each and nested levels serve all") {
+    const decimesh::Mesh mesh = shapes::stone(32, 24).mesh();
+    const std::vector<decimesh::Target> targets = {decimesh::Target::ratio(0.1)};
+    const decimesh::NestedLevels nested = decimesh::NestedLevels::build(mesh, targets);
+    std::optional<decimesh::Progressive> progressive = decimesh::Progressive::build(mesh, targets);
+    const Bytes finest = bytes_of(progressive->mesh(SIZE_MAX).indices());
+    std::vector<decimesh::Player> players;
+    for (std::size_t number = 0; number < thread_count; ++number) {
+        players.emplace_back(*progressive);
+    }
+    // Ended beside those that play it.
+    std::thread end([&] { progressive.reset(); });
+    at_once([&](std::size_t number) {
+        decimesh::Player &player = players[number];
+        for (std::size_t round = 0; round < 4; ++round) {
+            player.go_to(100 * round);
+            player.go_to(SIZE_MAX);
+        }
+        CHECK(bytes_of(player.indices()) == finest);
+        std::vector<std::uint16_t> indices(nested.level(1).index_count);
+        CHECK(nested.copy_indices(1, indices) == indices.size());
+        CHECK(std::equal(indices.begin(), indices.end(), nested.indices(1).begin()));
+    });
+    end.join();
+}
+
 TEST_CASE("threads: a mesh made by one may end in another") {
     decimesh::Mesh mesh = shapes::plane(8).mesh();
     std::thread([taken = std::move(mesh)] { CHECK(taken.triangle_count() == 128); }).join();

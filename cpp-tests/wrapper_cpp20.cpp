@@ -23,6 +23,16 @@ concept gives_mesh = requires(Levels &&levels) { std::forward<Levels>(levels).me
 static_assert(gives_mesh<decimesh::Levels &>);
 static_assert(!gives_mesh<decimesh::Levels>);
 
+template <class Levels>
+concept gives_indices = requires(Levels &&levels) { std::forward<Levels>(levels).indices(0); };
+static_assert(gives_indices<const decimesh::NestedLevels &>);
+static_assert(!gives_indices<decimesh::NestedLevels>);
+
+template <class Player>
+concept gives_a_view = requires(Player &&player) { std::forward<Player>(player).indices(); };
+static_assert(gives_a_view<const decimesh::Player &>);
+static_assert(!gives_a_view<decimesh::Player>);
+
 }   // namespace
 
 int main() {

@@ -6,8 +6,9 @@
  * any out-parameter, and decimesh_last_error_message() says what is wrong and where. What a call lists as
  * "Fails with _NULL" is DECIMESH_ERROR_NULL; any may also fail with DECIMESH_ERROR_PANIC, a bug in decimesh.
  *
- * Handles (decimesh_mesh, decimesh_levels) are immutable once made: const ones may be used from many threads
- * at once. Who makes one ends it with its _destroy function; pointers into it end with it.
+ * A const handle may be used from many threads at once. A call that takes one that is not const changes it, or
+ * ends it, and needs it for itself. Who makes a handle ends it with its _destroy function; pointers into it end
+ * with it.
  *
  * Structs begin with struct_size, which their _init functions set: programs keep working with newer and
  * older libraries. Enumerations are integers, and checked. Buffers need no alignment.
@@ -37,6 +38,21 @@
 #define DECIMESH_VERSION_PATCH 0
 
 /**
+ * A vertex that stays, bit for bit: a bit of decimesh_simplify_options.vertex_flags, as the next two are.
+ */
+#define DECIMESH_VERTEX_LOCK 1
+
+/**
+ * A vertex that goes along seams only, whatever cross_seams says.
+ */
+#define DECIMESH_VERTEX_PROTECT 2
+
+/**
+ * A vertex that is kept as long as others can go: it costs a hundred times as much.
+ */
+#define DECIMESH_VERTEX_PRIORITIZE 4
+
+/**
  * Levels of detail of one mesh, from fine to coarse: immutable.
  *
  * A const decimesh_levels* may be used from many threads at once.
@@ -47,9 +63,40 @@ typedef struct decimesh_levels decimesh_levels;
  * A triangle mesh: positions, triangles and attributes, validated when it was made and immutable since.
  *
  * A const decimesh_mesh* may be used from many threads at once. It is ended by decimesh_mesh_destroy(),
- * unless it belongs to a decimesh_levels.
+ * unless it belongs to another handle, such as a decimesh_levels.
  */
 typedef struct decimesh_mesh decimesh_mesh;
+
+/**
+ * Levels of detail, from fine to coarse, that share one vertex buffer: level 0 is the mesh that they were
+ * made of, and each level names vertices below a number that falls from level to level.
+ *
+ * A const decimesh_nested* may be used from many threads at once. decimesh_nested_certify() alone changes
+ * it, and needs it for itself.
+ */
+typedef struct decimesh_nested decimesh_nested;
+
+/**
+ * A level of a progressive mesh, and the way to those next to it: a step costs as much as it changes, so
+ * that a program that follows a camera need not make a level anew.
+ *
+ * Any number of players may play one progressive mesh, each in a thread of its own. A const
+ * decimesh_player* may be used from many threads at once, as long as none makes a call that takes one that
+ * is not const.
+ */
+typedef struct decimesh_player decimesh_player;
+
+/**
+ * A mesh as its coarsest level and the splits that refine it, one after the other: immutable.
+ *
+ * A step is the number of splits done: 0 is the coarsest level, decimesh_progressive_steps() the finest. The
+ * level at a step uses the first of the vertices and the first of the triangles; which vertex a corner of a
+ * triangle names depends on the step. Triangles with two corners at one place, and vertices that are in no
+ * other triangle, are left out of all levels.
+ *
+ * A const decimesh_progressive* may be used from many threads at once. It is played by a decimesh_player.
+ */
+typedef struct decimesh_progressive decimesh_progressive;
 
 /**
  * What became of a call: DECIMESH_OK, or why it failed. A value is never given a second meaning.
@@ -356,9 +403,13 @@ typedef struct decimesh_simplify_options {
      */
     int32_t lock_boundary;
     /**
-     * 1: vertices that share a place with others, as along the seams of textures, stay, bit for bit, so
-     * that no crack opens; 0: the sides of a seam may part. By default 1. It concerns meshes with
-     * attributes, and the calls on the caller's own buffers.
+     * 1: where several vertices are at one place, as along the seams of textures and the creases of normals,
+     * no crack opens; 0: the sides of a seam are borders, and part. By default 1.
+     *
+     * With DECIMESH_PLACEMENT_EXISTING such vertices go along their seam together, and are known by their
+     * places, with attributes or without. With DECIMESH_PLACEMENT_OPTIMAL they stay, bit for bit, where the
+     * mesh has attributes and in decimesh_simplify_in_place(); what is all seams, such as a faceted mesh,
+     * then gets stuck.
      */
     int32_t keep_seams;
     /**
@@ -390,6 +441,43 @@ typedef struct decimesh_simplify_options {
      * Handed to progress as it is.
      */
     void *progress_user;
+    /**
+     * What a difference of 1 in a coordinate of a normal weighs, beside a distance as long as the longest
+     * side of the bounding box: finite, not negative; by default 0, no say. The three weights are for
+     * DECIMESH_PLACEMENT_EXISTING; otherwise they change nothing.
+     */
+    float normal_weight;
+    /**
+     * The same for a texture coordinate.
+     */
+    float uv_weight;
+    /**
+     * The same for a channel of a colour, from none (0) to full (255).
+     */
+    float color_weight;
+    /**
+     * 1: with DECIMESH_PLACEMENT_EXISTING vertices may go across seams too, at the cost of the attributes by
+     * their weights: what was on one side then takes the nearest attributes of the other. The surface stays
+     * closed. It is for meshes of many small charts, and for faceted ones, which otherwise get stuck.
+     * By default 0.
+     */
+    int32_t cross_seams;
+    /**
+     * The group of each triangle of the input, such as its material, or NULL: where groups meet, their
+     * border stays a border. For DECIMESH_PLACEMENT_EXISTING only.
+     */
+    const uint32_t *triangle_groups;
+    /**
+     * NULL, or room for one group a triangle of the input, where triangle_groups is not NULL. It receives
+     * the group of each triangle of the result. Levels have calls of their own for theirs.
+     */
+    uint32_t *result_groups;
+    /**
+     * For each vertex of the input what it may do, DECIMESH_VERTEX_ bits or 0; or NULL.
+     * locked_vertices count as well. The last two bits are for DECIMESH_PLACEMENT_EXISTING; otherwise they
+     * change nothing.
+     */
+    const uint8_t *vertex_flags;
 } decimesh_simplify_options;
 
 /**
@@ -437,6 +525,16 @@ typedef struct decimesh_simplify_report {
      * Always 0.
      */
     uint32_t reserved;
+    /**
+     * Estimated largest difference of the attributes from the input's, by their weights: in units of the
+     * positions, a difference of 1 being the weight times the longest side of the bounding box. 0 where no
+     * attribute has a weight.
+     */
+    float attribute_error;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved_padding;
 } decimesh_simplify_report;
 
 /**
@@ -530,6 +628,100 @@ typedef struct decimesh_deviation_result {
 } decimesh_deviation_result;
 
 /**
+ * How close bounds shall come, and how much work that may be. decimesh_bound_options_init() sets the
+ * defaults.
+ */
+typedef struct decimesh_bound_options {
+    /**
+     * sizeof(decimesh_bound_options), as decimesh_bound_options_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Threads to use, 0: all that the machine has. The result is the same, bit for bit; by default 0.
+     */
+    uint32_t threads;
+    /**
+     * How far above the lower bound the upper may be, as a share of it: finite, not negative; by default
+     * 0.01. A millionth of the larger diagonal is allowed in any case.
+     */
+    double tolerance;
+    /**
+     * Pieces of triangles to look at before giving up on the tolerance: some microseconds each, and at most
+     * about 120 bytes; by default 5000000.
+     */
+    uint64_t pieces;
+    /**
+     * Is told of progress, and can cancel; NULL for none.
+     */
+    decimesh_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *progress_user;
+} decimesh_bound_options;
+
+/**
+ * What the two-sided Hausdorff distance lies between, in units of the positions.
+ */
+typedef struct decimesh_bound_result {
+    /**
+     * sizeof(decimesh_bound_result), as decimesh_bound_result_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved;
+    /**
+     * The largest distance found, at corners and inside of triangles.
+     */
+    double lower;
+    /**
+     * No point of either surface is farther from the other than this.
+     */
+    double upper;
+    /**
+     * Diagonal of the box around the triangles of the first mesh.
+     */
+    double diagonal;
+    /**
+     * Pieces that were looked at, other than the triangles themselves.
+     */
+    uint64_t pieces;
+} decimesh_bound_result;
+
+/**
+ * A level. decimesh_nested_level_init() sets it up.
+ */
+typedef struct decimesh_nested_level {
+    /**
+     * sizeof(decimesh_nested_level), as decimesh_nested_level_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Why it is as large as it is: a DECIMESH_STOPPED_BY_ value; for level 0 always _TARGET.
+     */
+    decimesh_stopped_by stopped_by;
+    /**
+     * Its vertices are so many, the first of the buffer: every index is below.
+     */
+    uint64_t vertices;
+    /**
+     * Its indices: three a triangle.
+     */
+    uint64_t indices;
+    /**
+     * Largest distance from level 0, in units of the positions: estimated, or guaranteed once
+     * decimesh_nested_certify() has said so. Never less than that of the level before.
+     */
+    float error;
+    /**
+     * 1 if holes, handles or components had to be given up, here or on a finer level.
+     */
+    int32_t topology_changed;
+} decimesh_nested_level;
+
+/**
  * The call did what it says.
  */
 #define DECIMESH_OK 0
@@ -590,7 +782,7 @@ typedef struct decimesh_deviation_result {
 #define DECIMESH_ERROR_NOT_FINITE 11
 
 /**
- * A level that does not exist was asked for.
+ * A level, or a mark, that does not exist was asked for.
  */
 #define DECIMESH_ERROR_OUT_OF_RANGE 12
 
@@ -620,12 +812,13 @@ typedef struct decimesh_deviation_result {
 #define DECIMESH_ERROR_UTF8 17
 
 /**
- * The result does not fit where it is to go, such as a mesh of more than 4 GiB into a glTF file.
+ * The result does not fit where it is to go, such as a mesh of more than 4 GiB into a glTF file, or indices
+ * into less room than they take.
  */
 #define DECIMESH_ERROR_TOO_LARGE 18
 
 /**
- * There is not enough memory for a copy of the buffers.
+ * There is not enough memory for a copy of the buffers or lists.
  */
 #define DECIMESH_ERROR_OUT_OF_MEMORY 19
 
@@ -827,7 +1020,7 @@ decimesh_status decimesh_mesh_weld(const struct decimesh_mesh *mesh,
 
 /**
  * Ends a mesh: its memory is given back, and pointers into it are void. NULL is left alone, as is a mesh
- * that belongs to a decimesh_levels.
+ * that belongs to another handle.
  *
  * No other thread may use the mesh any more.
  */
@@ -919,13 +1112,13 @@ void decimesh_simplify_report_init(struct decimesh_simplify_report *report,
  * Linear Time Algorithm for High Quality Mesh Simplification").
  *
  * A target that cannot be met is no failure: the result is then as small as the options allow, and the
- * report says why it stopped. Attributes are interpolated, and do not count as error. The input is
- * not changed. The result depends on the mesh and the options alone: not on the threads, nor on the
- * language of the caller.
+ * report says why it stopped. With DECIMESH_PLACEMENT_OPTIMAL attributes are interpolated, and do not count
+ * as error; with _EXISTING they count by their weights. The input is not changed. The result depends on the
+ * mesh and the options alone: not on the threads, nor on the language of the caller.
  *
  * *simplified receives a new mesh, which the caller ends with decimesh_mesh_destroy(). *report, if it is
  * not NULL, has been set up by decimesh_simplify_report_init. Fails with _NULL, _STRUCT_SIZE,
- * _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+ * _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
  * Linear time; about 36 bytes of memory a triangle, and the result. Any thread; progress is told on the
  * calling one.
@@ -940,9 +1133,10 @@ decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
  *
  * destination has room for buffers->index_count indices of buffers->index_type, and may be
  * buffers->indices itself. It receives *index_count indices. The placement is
- * DECIMESH_PLACEMENT_EXISTING, whatever the options say. Attributes may be left NULL: with
- * options->keep_seams, vertices that share a place are found by their positions.
- * options->origins, if asked for, names the caller's vertices.
+ * DECIMESH_PLACEMENT_EXISTING, whatever the options say. With options->keep_seams, vertices that share a
+ * place are found by their positions, and go along their seams together. Attributes may be left NULL; only
+ * those that are given and have a weight count as error. options->origins, if asked for, names the caller's
+ * vertices.
  *
  * Where the topology had to be given up (report->topology_changed), a vertex at which the surface was
  * parted serves both parts.
@@ -950,8 +1144,8 @@ decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
  *
- * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. Any thread;
- * progress is told on the calling one.
+ * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included, and 75 if normals have
+ * a weight. Any thread; progress is told on the calling one.
  */
 decimesh_status decimesh_simplify_indices(void *destination,
                                           const struct decimesh_buffers *buffers,
@@ -965,8 +1159,9 @@ decimesh_status decimesh_simplify_indices(void *destination,
  * A vertex of the result takes the place of one that went into it, so that further streams of the
  * vertex buffer stay where they are and nothing moves; vertices that no index names any more keep what
  * they had. buffers->indices receives *index_count indices; with DECIMESH_PLACEMENT_EXISTING that is
- * all that changes. options->origins, if asked for, names the caller's vertices. With
- * options->keep_seams, vertices that share a place are found by their positions.
+ * all that changes, as by decimesh_simplify_indices(). options->origins, if asked for, names the caller's
+ * vertices. With options->keep_seams, vertices that share a place are found by their positions, whether
+ * there are attributes or not.
  *
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
@@ -983,11 +1178,11 @@ decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers
  * Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
  *
  * target_values has count values, at least 1, from fine to coarse; each is what options->target_value is
- * for one simplification, which is not looked at here. options->origins must be NULL. A level that cannot
- * be met is the same mesh as the one before, and its report says why.
+ * for one simplification, which is not looked at here. options->origins and options->result_groups must be
+ * NULL. A level that cannot be met is the same mesh as the one before, and its report says why.
  *
  * *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
- * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+ * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
  * Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
  * calling one.
@@ -1029,6 +1224,17 @@ decimesh_status decimesh_levels_mesh(const struct decimesh_levels *levels,
 decimesh_status decimesh_levels_report(const struct decimesh_levels *levels,
                                        size_t level,
                                        struct decimesh_simplify_report *report);
+
+/**
+ * The group of each triangle of a level, 0 being the finest, if options->triangle_groups were given: into
+ * *groups, which becomes NULL if not.
+ *
+ * They belong to the chain and are valid until it ends. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+ * any thread.
+ */
+decimesh_status decimesh_levels_groups(const struct decimesh_levels *levels,
+                                       size_t level,
+                                       const uint32_t **groups);
 
 /**
  * The coarsest level whose error is at most max_error, in units of the positions: into *level, which
@@ -1073,6 +1279,420 @@ decimesh_status decimesh_deviation(const struct decimesh_mesh *a,
                                    const struct decimesh_mesh *b,
                                    const struct decimesh_deviation_options *options,
                                    struct decimesh_deviation_result *result);
+
+/**
+ * Sets the defaults: a tolerance of 1 %, 5000000 pieces, all threads. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_bound_options), as the caller was compiled: no more is written.
+ */
+void decimesh_bound_options_init(struct decimesh_bound_options *options,
+                                 size_t struct_size);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_bound_result), as the caller was compiled: no more is written.
+ */
+void decimesh_bound_result_init(struct decimesh_bound_result *result,
+                                size_t struct_size);
+
+/**
+ * Bounds the two-sided Hausdorff distance between the surfaces of two meshes: over all points, where
+ * decimesh_deviation() looks at samples.
+ *
+ * result->upper holds whatever the options. Whether it is as close to result->lower as asked for is for the
+ * caller to see: if not, the pieces did not suffice.
+ *
+ * options may be NULL: the defaults. *result has been set up by decimesh_bound_result_init. Fails with
+ * _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _OPTION (the tolerance), _EMPTY (a mesh without triangles),
+ * _CANCELLED or _THREADS.
+ *
+ * n log n time for the trees and the triangles, and then some microseconds a piece: a scan beside its tenth
+ * takes about seven a triangle. About 130 bytes of memory a triangle, and the pieces. Any thread; progress is
+ * told on the calling one.
+ */
+decimesh_status decimesh_bound(const struct decimesh_mesh *a,
+                               const struct decimesh_mesh *b,
+                               const struct decimesh_bound_options *options,
+                               struct decimesh_bound_result *result);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_nested_level), as the caller was compiled: no more is written.
+ */
+void decimesh_nested_level_init(struct decimesh_nested_level *level,
+                                size_t struct_size);
+
+/**
+ * Makes levels of a mesh by collapses that make no vertex and move none, and puts its vertices in order:
+ * those of the coarsest level first, in the order they had, then what each finer level adds, then those
+ * that no triangle uses. So one vertex buffer serves all levels, and a program that draws a coarse one need
+ * have loaded the beginning of it alone.
+ *
+ * target_values has count values, at least 1, from fine to coarse, and becomes the levels after 0; each is
+ * what options->target_value is for one simplification, which is not looked at here, as options->placement
+ * is not. options->origins and options->result_groups must be NULL. A level that cannot be met is the same
+ * as the one before, and says why.
+ *
+ * *nested receives the levels, which the caller ends with decimesh_nested_destroy(). Fails with _NULL,
+ * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
+ *
+ * Linear time; about 70 bytes of memory a triangle for three levels that halve, what they hold included. Any
+ * thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_nested_build(const struct decimesh_mesh *mesh,
+                                      const struct decimesh_simplify_options *options,
+                                      const double *target_values,
+                                      size_t count,
+                                      struct decimesh_nested **nested);
+
+/**
+ * Ends levels and their mesh. NULL is left alone.
+ *
+ * No other thread may use them or their mesh any more.
+ */
+void decimesh_nested_destroy(struct decimesh_nested *nested);
+
+/**
+ * How many levels there are, level 0 included; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_nested_count(const struct decimesh_nested *nested);
+
+/**
+ * The vertex buffer of all levels, as a mesh whose triangles are those of level 0; NULL for NULL.
+ *
+ * It belongs to the levels and ends with them: decimesh_mesh_destroy() leaves it alone. Constant time; any
+ * thread; never fails.
+ */
+const struct decimesh_mesh *decimesh_nested_mesh(const struct decimesh_nested *nested);
+
+/**
+ * For each vertex of the buffer the vertex of the input that it is, every one once: further streams of the
+ * input's vertices go to the same order by it. NULL for NULL.
+ *
+ * It belongs to the levels and is valid until they end. Constant time; any thread; never fails.
+ */
+const uint32_t *decimesh_nested_order(const struct decimesh_nested *nested);
+
+/**
+ * What a level is, 0 being the finest: into *description, which decimesh_nested_level_init has set up.
+ *
+ * Fails with _NULL, _OUT_OF_RANGE or _STRUCT_SIZE. Constant time; any thread.
+ */
+decimesh_status decimesh_nested_describe(const struct decimesh_nested *nested,
+                                         size_t level,
+                                         struct decimesh_nested_level *description);
+
+/**
+ * The indices of a level, three a triangle; how many there are decimesh_nested_describe() says.
+ *
+ * They belong to the levels and are valid until these end. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+ * any thread.
+ */
+decimesh_status decimesh_nested_indices(const struct decimesh_nested *nested,
+                                        size_t level,
+                                        const uint32_t **indices);
+
+/**
+ * Copies the indices of a level to destination, which has room for so many indices of index_type, at least
+ * as many as the level has.
+ *
+ * Fails with _NULL, _OUT_OF_RANGE, _ENUM, or _TOO_LARGE: there are more indices than there is room for, or
+ * more vertices than indices of 16 bits can name. Linear in the level; any thread.
+ */
+decimesh_status decimesh_nested_copy_indices(const struct decimesh_nested *nested,
+                                             size_t level,
+                                             decimesh_index_type index_type,
+                                             void *destination,
+                                             size_t room);
+
+/**
+ * The group of each triangle of a level, if options->triangle_groups were given: into *groups, which becomes
+ * NULL if not, and for level 0. The triangles of that are those of the input, in their order, and its groups
+ * are those given.
+ *
+ * They belong to the levels and are valid until these end. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+ * any thread.
+ */
+decimesh_status decimesh_nested_groups(const struct decimesh_nested *nested,
+                                       size_t level,
+                                       const uint32_t **groups);
+
+/**
+ * For each vertex of a level the one that it goes into on the next coarser level: itself where it stays, and
+ * where what surrounds it vanishes. A vertex drawn on the way from its own place to that one's hides the
+ * change of levels. *morphs becomes NULL on the coarsest level.
+ *
+ * They belong to the levels and are valid until these end. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+ * any thread.
+ */
+decimesh_status decimesh_nested_morphs(const struct decimesh_nested *nested,
+                                       size_t level,
+                                       const uint32_t **morphs);
+
+/**
+ * The coarsest level whose error is at most max_error, in units of the positions: into *level, which becomes
+ * 0 where none but the input is so good. decimesh_levels_select() says which error can be seen.
+ *
+ * Fails with _NULL, or _NOT_FINITE if max_error is not a number. Linear in the levels; any thread.
+ */
+decimesh_status decimesh_nested_select(const struct decimesh_nested *nested,
+                                       float max_error,
+                                       size_t *level);
+
+/**
+ * Puts a guaranteed bound in the place of each level's estimated error: no point of the level is farther
+ * from level 0 than that, and none of level 0 from the level.
+ *
+ * options may be NULL: the defaults. Fails as decimesh_bound() does, also for a level without triangles;
+ * then nothing has changed. As long as that for each level, which is far longer than
+ * decimesh_nested_build(). No other thread may use the levels meanwhile; progress is told on the calling
+ * thread.
+ */
+decimesh_status decimesh_nested_certify(struct decimesh_nested *nested,
+                                        const struct decimesh_bound_options *options);
+
+/**
+ * Writes all levels to a GLB file, with the vertex buffer there once.
+ *
+ * Each level is a node and a mesh, whose accessors end where the level's vertices do; the node's extras hold
+ * its error. The scene shows the first, which names the others by the extension MSFT_lod. Levels without
+ * triangles and vertices that no triangle uses are left out.
+ *
+ * The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8; its extension is not
+ * looked at. Fails with _NULL, _UTF8, _IO or _TOO_LARGE (GLB ends at 4 GiB). Linear in the levels; any
+ * thread.
+ */
+decimesh_status decimesh_nested_write_glb(const struct decimesh_nested *nested,
+                                          const char *path);
+
+/**
+ * Simplifies a mesh by collapses that make no vertex and move none, to each of the targets in turn, from
+ * fine to coarse, keeps all levels in between, and marks where each target is met.
+ *
+ * target_values has count values, at least 1; each is what options->target_value is for one simplification,
+ * which is not looked at here, as options->placement and options->topology are not: the topology is kept, so
+ * that the coarsest level may be larger than asked for. options->origins and options->result_groups must be
+ * NULL.
+ *
+ * *progressive receives the progressive mesh, which the caller ends with decimesh_progressive_destroy().
+ * Fails with _NULL, _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS
+ * or _OUT_OF_MEMORY.
+ *
+ * n log n time in the vertices, otherwise linear; about 130 bytes of memory a triangle for three targets
+ * that halve. The progressive mesh itself takes about 34, and the vertices. Any thread; progress is told on
+ * the calling one.
+ */
+decimesh_status decimesh_progressive_build(const struct decimesh_mesh *mesh,
+                                           const struct decimesh_simplify_options *options,
+                                           const double *target_values,
+                                           size_t count,
+                                           struct decimesh_progressive **progressive);
+
+/**
+ * Reads a progressive mesh from a file, as docs/progressive-format.md describes it, up to the finest level
+ * with at most max_triangles triangles, or the coarsest if even that has more; SIZE_MAX: all of it. What
+ * follows in the file is not looked at, and need not be there.
+ *
+ * What was read is checked split by split, so that every level is a mesh. path is UTF-8. *progressive
+ * receives the progressive mesh, which the caller ends with decimesh_progressive_destroy(). Fails with
+ * _NULL, _UTF8, _IO, _FORMAT (the text says at which byte), _INDEX_RANGE, _NOT_FINITE or _OVERFLOW. Time
+ * and memory are in proportion to what is read; any thread.
+ */
+decimesh_status decimesh_progressive_read(const char *path,
+                                          size_t max_triangles,
+                                          struct decimesh_progressive **progressive);
+
+/**
+ * The same from the bytes of such a file, which may be the beginning of it. They are not needed any more
+ * afterwards.
+ *
+ * *progressive receives the progressive mesh, which the caller ends with decimesh_progressive_destroy().
+ * Fails with _NULL, _FORMAT (the text says at which byte), _INDEX_RANGE, _NOT_FINITE or _OVERFLOW. Time and
+ * memory are in proportion to what is read; any thread.
+ */
+decimesh_status decimesh_progressive_from_memory(const void *bytes,
+                                                 size_t size,
+                                                 size_t max_triangles,
+                                                 struct decimesh_progressive **progressive);
+
+/**
+ * Writes a progressive mesh to a file, as docs/progressive-format.md describes it. The usual extension is
+ * .dpm.
+ *
+ * The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8. Fails with _NULL, _UTF8
+ * or _IO. Linear in the mesh; any thread.
+ */
+decimesh_status decimesh_progressive_write(const struct decimesh_progressive *progressive,
+                                           const char *path);
+
+/**
+ * Ends a progressive mesh and the mesh of its vertices; players of it go on. NULL is left alone.
+ *
+ * No other thread may use it any more, but for its players.
+ */
+void decimesh_progressive_destroy(struct decimesh_progressive *progressive);
+
+/**
+ * How many splits lead from the coarsest level to the finest; 0 for NULL. Constant time; any thread; never
+ * fails.
+ */
+size_t decimesh_progressive_steps(const struct decimesh_progressive *progressive);
+
+/**
+ * How many vertices the level at a step has, or the finest where step is beyond that; 0 for NULL. Constant
+ * time; any thread; never fails.
+ */
+size_t decimesh_progressive_vertex_count(const struct decimesh_progressive *progressive,
+                                         size_t step);
+
+/**
+ * How many triangles the level at a step has, or the finest where step is beyond that; 0 for NULL. Constant
+ * time; any thread; never fails.
+ */
+size_t decimesh_progressive_triangle_count(const struct decimesh_progressive *progressive,
+                                           size_t step);
+
+/**
+ * The step of the finest level with at most so many triangles: 0, the coarsest, if none has so few, and for
+ * NULL. Logarithmic time; any thread; never fails.
+ */
+size_t decimesh_progressive_step_within(const struct decimesh_progressive *progressive,
+                                        size_t triangles);
+
+/**
+ * The vertices of all levels, the last to go first, as a mesh without triangles; NULL for NULL.
+ *
+ * It belongs to the progressive mesh and ends with it: decimesh_mesh_destroy() leaves it alone. Constant
+ * time; any thread; never fails.
+ */
+const struct decimesh_mesh *decimesh_progressive_vertices(const struct decimesh_progressive *progressive);
+
+/**
+ * For each vertex the one of the input that it is; NULL where the progressive mesh comes from a file, and
+ * for NULL.
+ *
+ * It belongs to the progressive mesh and is valid until it ends. Constant time; any thread; never fails.
+ */
+const uint32_t *decimesh_progressive_order(const struct decimesh_progressive *progressive);
+
+/**
+ * Copies the indices of the level at a step, or of the finest where step is beyond that, to destination,
+ * which has room for so many indices of index_type, at least three for each of its triangles.
+ *
+ * Fails with _NULL, _ENUM, or _TOO_LARGE: there are more indices than there is room for, or more vertices
+ * than indices of 16 bits can name. Linear in the level and the corners changed on the way, whose memory it
+ * takes once more meanwhile; a decimesh_player goes from level to level for less. Any thread.
+ */
+decimesh_status decimesh_progressive_copy_indices(const struct decimesh_progressive *progressive,
+                                                  size_t step,
+                                                  decimesh_index_type index_type,
+                                                  void *destination,
+                                                  size_t room);
+
+/**
+ * The level at a step, or the finest where step is beyond that, as a mesh of its own.
+ *
+ * *mesh receives a new mesh, which the caller ends with decimesh_mesh_destroy(). Fails with _NULL. Linear in
+ * the level and the corners changed on the way; any thread.
+ */
+decimesh_status decimesh_progressive_mesh(const struct decimesh_progressive *progressive,
+                                          size_t step,
+                                          struct decimesh_mesh **mesh);
+
+/**
+ * How many levels have a mark: each target of decimesh_progressive_build() that could be met without a
+ * change of the topology; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_progressive_mark_count(const struct decimesh_progressive *progressive);
+
+/**
+ * A level that has a mark, 0 being the finest: at which step it is, into *step, and its estimated error, in
+ * units of the positions, into *error. Errors do not fall from mark to mark.
+ *
+ * Fails with _NULL or _OUT_OF_RANGE. Constant time; any thread.
+ */
+decimesh_status decimesh_progressive_mark(const struct decimesh_progressive *progressive,
+                                          size_t mark,
+                                          size_t *step,
+                                          float *error);
+
+/**
+ * A player at the coarsest level. It has a share of the progressive mesh, which lives on for it when its own
+ * handle is ended.
+ *
+ * *player receives the player, which the caller ends with decimesh_player_destroy(). Fails with _NULL.
+ * Linear in the coarsest level; 12 bytes of memory a triangle of the finest level it goes to. Any thread.
+ */
+decimesh_status decimesh_player_create(const struct decimesh_progressive *progressive,
+                                       struct decimesh_player **player);
+
+/**
+ * Ends a player. NULL is left alone.
+ *
+ * No other thread may use it any more.
+ */
+void decimesh_player_destroy(struct decimesh_player *player);
+
+/**
+ * At which step a player is; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_player_step(const struct decimesh_player *player);
+
+/**
+ * How many vertices the player's level has, the first of decimesh_progressive_vertices(); 0 for NULL.
+ * Constant time; any thread; never fails.
+ */
+size_t decimesh_player_vertex_count(const struct decimesh_player *player);
+
+/**
+ * How many triangles the player's level has; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_player_triangle_count(const struct decimesh_player *player);
+
+/**
+ * The indices of the player's level, three a triangle; NULL for NULL. They are what
+ * decimesh_progressive_copy_indices() gives for the step.
+ *
+ * They belong to the player and are valid until it goes to another step or ends. Without triangles there is
+ * nothing to read. Constant time; any thread; never fails.
+ */
+const uint32_t *decimesh_player_indices(const struct decimesh_player *player);
+
+/**
+ * Copies the indices of the player's level to destination, which has room for so many indices of
+ * index_type, at least three for each of its triangles.
+ *
+ * Fails with _NULL, _ENUM, or _TOO_LARGE: there are more indices than there is room for, or more vertices
+ * than indices of 16 bits can name. Linear in the level; any thread.
+ */
+decimesh_status decimesh_player_copy_indices(const struct decimesh_player *player,
+                                             decimesh_index_type index_type,
+                                             void *destination,
+                                             size_t room);
+
+/**
+ * Does the next split; at the finest level nothing changes.
+ *
+ * Fails with _NULL. In proportion to what changes. No other thread may use the player meanwhile.
+ */
+decimesh_status decimesh_player_finer(struct decimesh_player *player);
+
+/**
+ * Undoes the last split; at the coarsest level nothing changes.
+ *
+ * Fails with _NULL. In proportion to what changes. No other thread may use the player meanwhile.
+ */
+decimesh_status decimesh_player_coarser(struct decimesh_player *player);
+
+/**
+ * Goes to a step, or to the finest level where step is beyond that.
+ *
+ * Fails with _NULL. In proportion to the splits in between. No other thread may use the player meanwhile.
+ */
+decimesh_status decimesh_player_go_to(struct decimesh_player *player,
+                                      size_t step);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -13,8 +13,9 @@
 ///   cancelled throws `Cancelled`; arguments that do not fit each other, such as five normals for eight
 ///   positions, throw `std::invalid_argument` before the library is called. Whatever is thrown, nothing of
 ///   the caller's has changed and nothing is lost.
-/// - **Threads.** Meshes and levels never change: any number of threads may use one at once, as long as
-///   none moves or destroys it. The library's own threads call nothing of the caller's.
+/// - **Threads.** What is const may be used by any number of threads at once, as long as none moves, changes or
+///   destroys it; and little changes: a `Player`, and `NestedLevels` that are certified. The library's own
+///   threads call nothing of the caller's.
 /// - **Determinism.** The same input and options give the same bytes, for any number of threads.
 ///
 /// Run-time type information is not needed; exceptions are.
@@ -69,7 +70,7 @@ enum class Status : std::int32_t {
     index_count = DECIMESH_ERROR_INDEX_COUNT,        ///< the number of indices is no multiple of three
     index_range = DECIMESH_ERROR_INDEX_RANGE,        ///< an index names a vertex that does not exist
     not_finite = DECIMESH_ERROR_NOT_FINITE,          ///< a number is infinite or none
-    out_of_range = DECIMESH_ERROR_OUT_OF_RANGE,      ///< a level that does not exist
+    out_of_range = DECIMESH_ERROR_OUT_OF_RANGE,      ///< a level or a mark that does not exist
     io = DECIMESH_ERROR_IO,                          ///< the system refused to read or write
     format = DECIMESH_ERROR_FORMAT,                  ///< a file breaks the rules, or is of no known kind
     cancelled = DECIMESH_ERROR_CANCELLED,            ///< `Progress` said so
@@ -300,6 +301,24 @@ enum class StoppedBy : decimesh_stopped_by {
     stuck = DECIMESH_STOPPED_BY_STUCK,     ///< every further collapse is forbidden by topology, locks or folds
 };
 
+/// What a vertex may do: bits of `Options::vertex_flags`.
+namespace vertex_flag {
+/// It stays, bit for bit.
+inline constexpr std::uint8_t lock = DECIMESH_VERTEX_LOCK;
+/// It goes along seams only, whatever `Options::cross_seams` says.
+inline constexpr std::uint8_t protect = DECIMESH_VERTEX_PROTECT;
+/// It is kept as long as others can go: it costs a hundred times as much.
+inline constexpr std::uint8_t prioritize = DECIMESH_VERTEX_PRIORITIZE;
+}   // namespace vertex_flag
+
+/// What a difference of 1 in an attribute weighs, beside a distance as long as the longest side of the bounding
+/// box. Finite, not negative; 0: no say. For `Placement::existing` only.
+struct AttributeWeights {
+    float normals = 0;   ///< for each of the three coordinates of normals
+    float uvs = 0;       ///< for both texture coordinates
+    float colors = 0;    ///< for each of the four channels of colours, from none (0) to full (255)
+};
+
 /// How to simplify. The defaults are the library's.
 struct Options {
     /// What to arrive at.
@@ -314,11 +333,23 @@ struct Options {
     Placement placement = Placement::optimal;
     /// Vertices of the border stay, bit for bit.
     bool lock_boundary = false;
-    /// Where there are attributes, vertices at one place stay, bit for bit, so that seams open no crack. A mesh
-    /// that is all seams gets stuck: weld it, or let the seams go.
+    /// Where several vertices are at one place, as along the seams of textures, no crack opens. With
+    /// `Placement::existing` they go along their seam together; with `Placement::optimal` they stay, bit for
+    /// bit, where there are attributes and in `simplify_in_place`, and a mesh that is all seams gets stuck: weld
+    /// it, or let the seams go.
     bool keep_seams = true;
+    /// With `Placement::existing`, vertices may go across seams too, at the cost of the attributes by their
+    /// weights; the surface stays closed. For meshes of many small charts, and for faceted ones.
+    bool cross_seams = false;
+    /// What attributes count, beside the distance.
+    AttributeWeights attribute_weights = {};
+    /// The group of each triangle, such as its material, or empty: where groups meet, their border stays a
+    /// border, and `groups` of the result says where each triangle belongs. For `Placement::existing` only.
+    std::vector<std::uint32_t> triangle_groups = {};
     /// Indices of vertices that stay, bit for bit.
     std::vector<std::uint32_t> locked_vertices = {};
+    /// For each vertex `vertex_flag` bits or 0, or empty. The `locked_vertices` count as well.
+    std::vector<std::uint8_t> vertex_flags = {};
     /// Threads to work with; 0: all of the machine.
     std::uint32_t threads = 0;
     /// Fill `origins` of the result.
@@ -339,6 +370,7 @@ struct Report {
     float error;                     ///< estimated largest distance from the input
     bool topology_changed;           ///< whether holes, handles or components were given up for the target
     std::uint32_t passes;            ///< passes over the mesh
+    float attribute_error;           ///< estimated largest difference of attributes, by weight, as a length
 };
 
 /// What a mesh is made of and what is wrong with it.
@@ -394,6 +426,27 @@ struct Deviation {
     Distances backward;          ///< from the second to the first
     double diagonal;             ///< of the box around the first mesh
     double normal_rms_degrees;   ///< RMS angle between normals, the larger of both directions
+};
+
+/// How close bounds shall come, and how much work that may be. The defaults are the library's.
+struct BoundOptions {
+    /// How far above the lower bound the upper may be, as a share of it: finite, not negative.
+    double tolerance = 0.01;
+    /// Pieces of triangles to look at before giving up on the tolerance: some microseconds each, and at most
+    /// about 120 bytes.
+    std::uint64_t pieces = 5000000;
+    /// Threads to work with; 0: all of the machine.
+    std::uint32_t threads = 0;
+    /// Hears of progress, and may cancel. Empty: nobody does.
+    Progress progress = {};
+};
+
+/// What the two-sided Hausdorff distance between two surfaces lies between.
+struct Bound {
+    double lower;           ///< the largest distance found
+    double upper;           ///< no point of either surface is farther from the other
+    double diagonal;        ///< of the box around the first mesh
+    std::uint64_t pieces;   ///< pieces that were looked at, other than the triangles themselves
 };
 
 // ---- meshes ----
@@ -452,7 +505,7 @@ private:
 
 }   // namespace detail
 
-/// A mesh that belongs to somebody else: to a `Mesh`, to `Levels`, or to C code. Cheap to copy; valid as long
+/// A mesh that belongs to somebody else: to a `Mesh`, to levels, or to C code. Cheap to copy; valid as long
 /// as its owner is. Every function that reads a mesh takes one, and a `Mesh` converts to it.
 class MeshView : public detail::MeshQueries<MeshView> {
 public:
@@ -517,6 +570,8 @@ struct Simplified {
     /// For each input vertex the output vertex it went into, or `vanished`. Empty unless
     /// `Options::track_origins`.
     std::vector<std::uint32_t> origins;
+    /// The group of each triangle. Empty unless there are `Options::triangle_groups`.
+    std::vector<std::uint32_t> groups;
 };
 
 /// Simplifies `mesh`. A target that cannot be met is no error: the result is then as small as the options
@@ -531,6 +586,8 @@ struct SimplifiedIndices {
     Report report;
     /// As in `Simplified`; output vertices are input vertices here, by their old numbers.
     std::vector<std::uint32_t> origins;
+    /// As in `Simplified`.
+    std::vector<std::uint32_t> groups;
 };
 
 /// For engines: fewer triangles over the same, unchanged vertices, so that all levels of detail share one
@@ -565,6 +622,11 @@ public:
     /// How `level` came about; errors are distances from the mesh that the chain began with.
     Report report(std::size_t level) const;
 
+    /// The group of each triangle of `level`, borrowed as the mesh is. Empty unless there were
+    /// `Options::triangle_groups`.
+    Span<const std::uint32_t> groups(std::size_t level) const &;
+    Span<const std::uint32_t> groups(std::size_t level) const && = delete;
+
     /// The coarsest level with an error of at most `max_error`; none if even the finest exceeds it: then draw
     /// the mesh itself.
     std::optional<std::size_t> select(float max_error) const;
@@ -578,6 +640,203 @@ private:
     };
     std::unique_ptr<decimesh_levels, Destroy> handle_;
 };
+
+/// What is known of a level of `NestedLevels`.
+struct NestedLevel {
+    StoppedBy stopped_by;       ///< why it is as large as it is
+    std::size_t vertices;       ///< its vertices are so many, the first of the buffer
+    std::size_t index_count;    ///< three a triangle
+    float error;                ///< largest distance from level 0: estimated, or guaranteed once certified
+    bool topology_changed;      ///< whether holes, handles or components were given up, here or on a finer level
+};
+
+/// Levels of detail that share one vertex buffer: level 0 is the mesh that they were made of, and each level
+/// names vertices below a number that falls from level to level. Move-only.
+class NestedLevels {
+public:
+    /// A level for each of `targets` after level 0, from fine to coarse; all of one kind. `Options::target` and
+    /// `Options::placement` are not looked at, and `Options::track_origins` must be off. Levels that cannot be
+    /// met are the same as the one before, and say so.
+    static NestedLevels build(MeshView mesh, const std::vector<Target> &targets, const Options &options = {});
+
+    /// How many levels, level 0 included.
+    std::size_t size() const noexcept { return decimesh_nested_count(get()); }
+
+    /// The vertex buffer of all levels, with the triangles of level 0. Borrowed, as all spans and views below:
+    /// it lives as long as these levels.
+    MeshView mesh() const & noexcept { return MeshView(decimesh_nested_mesh(get())); }
+    MeshView mesh() const && = delete;
+
+    /// For each vertex of the buffer the vertex of the input that it is: for streams that decimesh has not seen.
+    Span<const std::uint32_t> order() const & noexcept {
+        return {decimesh_nested_order(get()), decimesh_mesh_vertex_count(decimesh_nested_mesh(get()))};
+    }
+    Span<const std::uint32_t> order() const && = delete;
+
+    /// What `level` is. Throws `Error` if there is no such level, as all that are asked for one do.
+    NestedLevel level(std::size_t level) const;
+
+    /// The indices of `level`.
+    Span<const std::uint32_t> indices(std::size_t level) const &;
+    Span<const std::uint32_t> indices(std::size_t level) const && = delete;
+
+    /// Copies the indices of `level` to the beginning of `destination`, and answers how many there are. Throws
+    /// `Error` if they do not fit: more than there is room for, or vertices that 16 bits cannot name.
+    std::size_t copy_indices(std::size_t level, Span<std::uint32_t> destination) const;
+    std::size_t copy_indices(std::size_t level, Span<std::uint16_t> destination) const;
+
+    /// The group of each triangle of `level`. Empty unless there were `Options::triangle_groups`, and for level 0,
+    /// whose triangles are those of the input in their order: its groups are those given.
+    Span<const std::uint32_t> groups(std::size_t level) const &;
+    Span<const std::uint32_t> groups(std::size_t level) const && = delete;
+
+    /// For each vertex of `level` the one that it goes into on the next coarser level, to draw it on the way
+    /// there; itself where it stays. Empty on the coarsest level.
+    Span<const std::uint32_t> morphs(std::size_t level) const &;
+    Span<const std::uint32_t> morphs(std::size_t level) const && = delete;
+
+    /// The coarsest level with an error of at most `max_error`; 0 if none but the input is so good.
+    std::size_t select(float max_error) const;
+
+    /// Puts a guaranteed bound in the place of each level's estimated error, which takes far longer than
+    /// `build`. If it throws, nothing has changed.
+    void certify(const BoundOptions &options = {});
+
+    /// Writes one GLB file: the vertex buffer once, each level a node, which the first names by the extension
+    /// MSFT_lod. `path` is UTF-8.
+    void write_glb(const std::string &path) const;
+
+    /// The handle of the C interface.
+    const decimesh_nested *get() const noexcept { return handle_.get(); }
+
+private:
+    struct Destroy {
+        void operator()(decimesh_nested *handle) const noexcept { decimesh_nested_destroy(handle); }
+    };
+    std::unique_ptr<decimesh_nested, Destroy> handle_;
+};
+
+/// A mesh as its coarsest level and the splits that refine it, one after the other. A step is the number of
+/// splits done: 0 is the coarsest level, `steps()` the finest, and a step beyond it is taken for it.
+/// Immutable, move-only.
+class Progressive {
+public:
+    /// A level that a target was met at.
+    struct Mark {
+        std::size_t step;   ///< at which step it is
+        float error;        ///< estimated largest distance from the finest
+    };
+
+    /// Of a file, all of it.
+    static constexpr std::size_t whole = SIZE_MAX;
+
+    /// Simplifies to each of `targets` in turn, from fine to coarse, all of one kind, and keeps all levels in
+    /// between. The topology is kept, so that the coarsest level may be larger than asked for. `Options::target`,
+    /// `Options::placement` and `Options::topology` are not looked at, and `Options::track_origins` must be off.
+    static Progressive build(MeshView mesh, const std::vector<Target> &targets, const Options &options = {});
+
+    /// Reads a file, up to the finest level of at most `max_triangles`, or the coarsest. `path` is UTF-8.
+    static Progressive read(const std::string &path, std::size_t max_triangles = whole);
+
+    /// The same from the bytes of such a file, or of its beginning.
+    static Progressive from_memory(const void *bytes, std::size_t size, std::size_t max_triangles = whole);
+
+    /// Writes a file: whole, or not at all. `path` is UTF-8.
+    void write(const std::string &path) const;
+
+    /// How many splits lead from the coarsest level to the finest.
+    std::size_t steps() const noexcept { return decimesh_progressive_steps(get()); }
+    std::size_t vertex_count(std::size_t step) const noexcept {
+        return decimesh_progressive_vertex_count(get(), step);
+    }
+    std::size_t triangle_count(std::size_t step) const noexcept {
+        return decimesh_progressive_triangle_count(get(), step);
+    }
+    /// The step of the finest level with at most so many triangles; 0 if none has so few.
+    std::size_t step_within(std::size_t triangles) const noexcept {
+        return decimesh_progressive_step_within(get(), triangles);
+    }
+
+    /// The vertices of all levels, the last to go first; a mesh without triangles. Borrowed, as the next is: it
+    /// lives as long as this.
+    MeshView vertices() const & noexcept { return MeshView(decimesh_progressive_vertices(get())); }
+    MeshView vertices() const && = delete;
+
+    /// For each vertex the one of the input that it is. Empty if this comes from a file.
+    Span<const std::uint32_t> order() const & noexcept;
+    Span<const std::uint32_t> order() const && = delete;
+
+    /// Copies the indices of the level at `step` to the beginning of `destination`, and answers how many there
+    /// are. Throws `Error` if they do not fit: more than there is room for, or vertices that 16 bits cannot name.
+    std::size_t copy_indices(std::size_t step, Span<std::uint32_t> destination) const;
+    std::size_t copy_indices(std::size_t step, Span<std::uint16_t> destination) const;
+
+    /// The level at `step` as a mesh of its own.
+    Mesh mesh(std::size_t step) const;
+
+    /// Where the targets were met, from fine to coarse.
+    std::vector<Mark> marks() const;
+
+    /// The handle of the C interface.
+    const decimesh_progressive *get() const noexcept { return handle_.get(); }
+
+private:
+    static Progressive adopt(decimesh_progressive *handle) noexcept {
+        Progressive progressive;
+        progressive.handle_.reset(handle);
+        return progressive;
+    }
+
+    struct Destroy {
+        void operator()(decimesh_progressive *handle) const noexcept { decimesh_progressive_destroy(handle); }
+    };
+    std::unique_ptr<decimesh_progressive, Destroy> handle_;
+};
+
+/// A level of a `Progressive`, and the way to those next to it: a step costs as much as it changes. It has a share
+/// of the progressive mesh, and may outlive it. Move-only.
+class Player {
+public:
+    /// A player of nothing, to assign to.
+    Player() noexcept = default;
+
+    /// A player at the coarsest level.
+    explicit Player(const Progressive &progressive);
+
+    std::size_t step() const noexcept { return decimesh_player_step(get()); }
+    std::size_t vertex_count() const noexcept { return decimesh_player_vertex_count(get()); }
+    std::size_t triangle_count() const noexcept { return decimesh_player_triangle_count(get()); }
+
+    /// The indices of the level. Borrowed: they live until the player goes to another step.
+    Span<const std::uint32_t> indices() const & noexcept {
+        return {decimesh_player_indices(get()), 3 * triangle_count()};
+    }
+    Span<const std::uint32_t> indices() const && = delete;
+
+    /// As `Progressive::copy_indices`.
+    std::size_t copy_indices(Span<std::uint32_t> destination) const;
+    std::size_t copy_indices(Span<std::uint16_t> destination) const;
+
+    /// Does the next split; false if this was the finest level.
+    bool finer();
+    /// Undoes the last split; false if this was the coarsest level.
+    bool coarser();
+    /// Goes to `step`, or to the finest level where it is beyond that.
+    void go_to(std::size_t step);
+
+    /// The handle of the C interface.
+    const decimesh_player *get() const noexcept { return handle_.get(); }
+
+private:
+    struct Destroy {
+        void operator()(decimesh_player *handle) const noexcept { decimesh_player_destroy(handle); }
+    };
+    std::unique_ptr<decimesh_player, Destroy> handle_;
+};
+
+/// Bounds the two-sided Hausdorff distance between the surfaces of `a` and `b`, over all points. n log n time,
+/// and some microseconds a piece; about 130 bytes a triangle of both, and the pieces.
+Bound bound(MeshView a, MeshView b, const BoundOptions &options = {});
 
 /// Measures how far the surfaces of `a` and `b` are apart, in both directions. n log n time; about 110 bytes a
 /// triangle of both.
@@ -648,13 +907,26 @@ private:
 
 inline Report from_raw(const decimesh_simplify_report &raw) noexcept {
     return {static_cast<StoppedBy>(raw.stopped_by), raw.triangles, raw.vertices, raw.locked_vertices, raw.error,
-            raw.topology_changed != 0, raw.passes};
+            raw.topology_changed != 0, raw.passes, raw.attribute_error};
+}
+
+/// A pointer to the elements of `given`, one for each of `count`, or NULL where there are none.
+template <class T>
+const T *element_each(const std::vector<T> &given, const char *name, std::size_t count, const char *of) {
+    if (given.empty()) {
+        return nullptr;
+    }
+    if (given.size() != count) {
+        throw std::invalid_argument("decimesh: " + std::to_string(given.size()) + " " + name + " for " +
+                                    std::to_string(count) + " " + of);
+    }
+    return given.data();
 }
 
 /// The structs of a call that simplifies, and what they point to. `options` must outlive it.
 class SimplifyCall {
 public:
-    SimplifyCall(const Options &options, std::size_t vertices) : watcher_(options.progress) {
+    SimplifyCall(const Options &options, std::size_t vertices, std::size_t triangles) : watcher_(options.progress) {
         raw.target = static_cast<decimesh_target>(options.target.kind());
         raw.target_value = options.target.value();
         raw.selection = static_cast<decimesh_selection>(options.selection);
@@ -666,6 +938,12 @@ public:
         raw.threads = options.threads;
         raw.locked_vertices = options.locked_vertices.data();
         raw.locked_count = options.locked_vertices.size();
+        raw.cross_seams = options.cross_seams;
+        raw.normal_weight = options.attribute_weights.normals;
+        raw.uv_weight = options.attribute_weights.uvs;
+        raw.color_weight = options.attribute_weights.colors;
+        raw.triangle_groups = element_each(options.triangle_groups, "groups", triangles, "triangles");
+        raw.vertex_flags = element_each(options.vertex_flags, "flags", vertices, "vertices");
         if (options.track_origins) {
             origins.resize(vertices);
             raw.origins = origins.data();
@@ -673,15 +951,71 @@ public:
         watcher_.attach(raw);
     }
 
-    void check(decimesh_status status) const { watcher_.check(status); }
+    /// To be called before one mesh is made.
+    void ask_for_groups(std::size_t triangles) {
+        if (raw.triangle_groups != nullptr) {
+            groups.resize(triangles);
+            raw.result_groups = groups.data();
+        }
+    }
+
+    void check(decimesh_status status) {
+        watcher_.check(status);
+        if (!groups.empty()) {
+            groups.resize(static_cast<std::size_t>(report.triangles));
+        }
+    }
+
+    /// Takes the kind of the targets, and gives their values.
+    std::vector<double> set_targets(const std::vector<Target> &targets) {
+        std::vector<double> values;
+        values.reserve(targets.size());
+        for (const Target &target : targets) {
+            if (target.kind() != targets.front().kind()) {
+                throw std::invalid_argument("decimesh: the targets of levels must all be of one kind");
+            }
+            values.push_back(target.value());
+        }
+        if (!targets.empty()) {
+            raw.target = static_cast<decimesh_target>(targets.front().kind());
+            raw.target_value = targets.front().value();
+        }
+        return values;
+    }
 
     decimesh_simplify_options raw = sized<decimesh_simplify_options>();
     decimesh_simplify_report report = sized<decimesh_simplify_report>();
     std::vector<std::uint32_t> origins;
+    std::vector<std::uint32_t> groups;
 
 private:
     Watcher watcher_;
 };
+
+/// The struct of a call that bounds a distance. `options` must outlive it.
+class BoundCall {
+public:
+    explicit BoundCall(const BoundOptions &options) : watcher_(options.progress) {
+        raw.threads = options.threads;
+        raw.tolerance = options.tolerance;
+        raw.pieces = options.pieces;
+        watcher_.attach(raw);
+    }
+
+    void check(decimesh_status status) const { watcher_.check(status); }
+
+    decimesh_bound_options raw = sized<decimesh_bound_options>();
+
+private:
+    Watcher watcher_;
+};
+
+/// Where `destination` begins. Room for nothing may be nowhere, which to C would be a pointer forgotten.
+template <class Index>
+void *room_of(Span<Index> destination) noexcept {
+    static Index nothing;
+    return destination.data() == nullptr ? &nothing : destination.data();
+}
 
 template <class Index>
 constexpr decimesh_index_type index_type() noexcept {
@@ -780,12 +1114,13 @@ inline Mesh Mesh::read(const std::string &path) {
 }
 
 inline Simplified simplify(MeshView mesh, const Options &options) {
-    detail::SimplifyCall call(options, mesh.vertex_count());
+    detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
+    call.ask_for_groups(mesh.triangle_count());
     decimesh_mesh *simplified = nullptr;
     const decimesh_status status = decimesh_simplify(mesh.get(), &call.raw, &simplified, &call.report);
     Mesh result = Mesh::adopt(simplified);
     call.check(status);
-    return {std::move(result), detail::from_raw(call.report), std::move(call.origins)};
+    return {std::move(result), detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
 }
 
 template <class Index>
@@ -796,35 +1131,26 @@ SimplifiedIndices simplify_indices(std::common_type_t<Span<Index>> destination, 
                                     " indices, but there are " + std::to_string(buffers.indices.size()));
     }
     const auto raw = detail::to_raw<decimesh_buffers>(buffers);
-    detail::SimplifyCall call(options, raw.vertex_count);
+    detail::SimplifyCall call(options, raw.vertex_count, raw.index_count / 3);
+    call.ask_for_groups(raw.index_count / 3);
     std::size_t count = 0;
     call.check(decimesh_simplify_indices(destination.data(), &raw, &call.raw, &count, &call.report));
-    return {count, detail::from_raw(call.report), std::move(call.origins)};
+    return {count, detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
 }
 
 template <class Index>
 SimplifiedIndices simplify_in_place(const MutableBuffers<Index> &buffers, const Options &options) {
     const auto raw = detail::to_raw<decimesh_mutable_buffers>(buffers);
-    detail::SimplifyCall call(options, raw.vertex_count);
+    detail::SimplifyCall call(options, raw.vertex_count, raw.index_count / 3);
+    call.ask_for_groups(raw.index_count / 3);
     std::size_t count = 0;
     call.check(decimesh_simplify_in_place(&raw, &call.raw, &count, &call.report));
-    return {count, detail::from_raw(call.report), std::move(call.origins)};
+    return {count, detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
 }
 
 inline Levels Levels::build(MeshView mesh, const std::vector<Target> &targets, const Options &options) {
-    detail::SimplifyCall call(options, mesh.vertex_count());
-    std::vector<double> values;
-    values.reserve(targets.size());
-    for (const Target &target : targets) {
-        if (target.kind() != targets.front().kind()) {
-            throw std::invalid_argument("decimesh: the targets of levels must all be of one kind");
-        }
-        values.push_back(target.value());
-    }
-    if (!targets.empty()) {
-        call.raw.target = static_cast<decimesh_target>(targets.front().kind());
-        call.raw.target_value = targets.front().value();
-    }
+    detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
+    const std::vector<double> values = call.set_targets(targets);
     Levels levels;
     decimesh_levels *handle = nullptr;
     const decimesh_status status =
@@ -846,10 +1172,179 @@ inline Report Levels::report(std::size_t level) const {
     return detail::from_raw(raw);
 }
 
+inline Span<const std::uint32_t> Levels::groups(std::size_t level) const & {
+    const std::uint32_t *first = nullptr;
+    detail::check(decimesh_levels_groups(get(), level, &first));
+    return {first, first == nullptr ? 0 : mesh(level).triangle_count()};
+}
+
 inline std::optional<std::size_t> Levels::select(float max_error) const {
     std::size_t level = 0;
     detail::check(decimesh_levels_select(get(), max_error, &level));
     return level < size() ? std::optional<std::size_t>(level) : std::nullopt;
+}
+
+inline NestedLevels NestedLevels::build(MeshView mesh, const std::vector<Target> &targets, const Options &options) {
+    detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
+    const std::vector<double> values = call.set_targets(targets);
+    NestedLevels levels;
+    decimesh_nested *handle = nullptr;
+    const decimesh_status status =
+        decimesh_nested_build(mesh.get(), &call.raw, values.data(), values.size(), &handle);
+    levels.handle_.reset(handle);
+    call.check(status);
+    return levels;
+}
+
+inline NestedLevel NestedLevels::level(std::size_t level) const {
+    auto raw = detail::sized<decimesh_nested_level>();
+    detail::check(decimesh_nested_describe(get(), level, &raw));
+    return {static_cast<StoppedBy>(raw.stopped_by), static_cast<std::size_t>(raw.vertices),
+            static_cast<std::size_t>(raw.indices), raw.error, raw.topology_changed != 0};
+}
+
+inline Span<const std::uint32_t> NestedLevels::indices(std::size_t level) const & {
+    const std::uint32_t *first = nullptr;
+    detail::check(decimesh_nested_indices(get(), level, &first));
+    return {first, this->level(level).index_count};
+}
+
+inline std::size_t NestedLevels::copy_indices(std::size_t level, Span<std::uint32_t> destination) const {
+    detail::check(decimesh_nested_copy_indices(get(), level, DECIMESH_INDEX_U32, detail::room_of(destination),
+                                               destination.size()));
+    return this->level(level).index_count;
+}
+
+inline std::size_t NestedLevels::copy_indices(std::size_t level, Span<std::uint16_t> destination) const {
+    detail::check(decimesh_nested_copy_indices(get(), level, DECIMESH_INDEX_U16, detail::room_of(destination),
+                                               destination.size()));
+    return this->level(level).index_count;
+}
+
+inline Span<const std::uint32_t> NestedLevels::groups(std::size_t level) const & {
+    const std::uint32_t *first = nullptr;
+    detail::check(decimesh_nested_groups(get(), level, &first));
+    return {first, first == nullptr ? 0 : this->level(level).index_count / 3};
+}
+
+inline Span<const std::uint32_t> NestedLevels::morphs(std::size_t level) const & {
+    const std::uint32_t *first = nullptr;
+    detail::check(decimesh_nested_morphs(get(), level, &first));
+    return {first, first == nullptr ? 0 : this->level(level).vertices};
+}
+
+inline std::size_t NestedLevels::select(float max_error) const {
+    std::size_t level = 0;
+    detail::check(decimesh_nested_select(get(), max_error, &level));
+    return level;
+}
+
+inline void NestedLevels::certify(const BoundOptions &options) {
+    detail::BoundCall call(options);
+    call.check(decimesh_nested_certify(handle_.get(), &call.raw));
+}
+
+inline void NestedLevels::write_glb(const std::string &path) const {
+    detail::check(decimesh_nested_write_glb(get(), path.c_str()));
+}
+
+inline Progressive Progressive::build(MeshView mesh, const std::vector<Target> &targets, const Options &options) {
+    detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
+    const std::vector<double> values = call.set_targets(targets);
+    decimesh_progressive *handle = nullptr;
+    const decimesh_status status =
+        decimesh_progressive_build(mesh.get(), &call.raw, values.data(), values.size(), &handle);
+    Progressive progressive = adopt(handle);
+    call.check(status);
+    return progressive;
+}
+
+inline Progressive Progressive::read(const std::string &path, std::size_t max_triangles) {
+    decimesh_progressive *handle = nullptr;
+    detail::check(decimesh_progressive_read(path.c_str(), max_triangles, &handle));
+    return adopt(handle);
+}
+
+inline Progressive Progressive::from_memory(const void *bytes, std::size_t size, std::size_t max_triangles) {
+    decimesh_progressive *handle = nullptr;
+    detail::check(decimesh_progressive_from_memory(bytes, size, max_triangles, &handle));
+    return adopt(handle);
+}
+
+inline void Progressive::write(const std::string &path) const {
+    detail::check(decimesh_progressive_write(get(), path.c_str()));
+}
+
+inline Span<const std::uint32_t> Progressive::order() const & noexcept {
+    const std::uint32_t *first = decimesh_progressive_order(get());
+    return {first, first == nullptr ? 0 : vertex_count(steps())};
+}
+
+inline std::size_t Progressive::copy_indices(std::size_t step, Span<std::uint32_t> destination) const {
+    detail::check(decimesh_progressive_copy_indices(get(), step, DECIMESH_INDEX_U32, detail::room_of(destination),
+                                                    destination.size()));
+    return 3 * triangle_count(step);
+}
+
+inline std::size_t Progressive::copy_indices(std::size_t step, Span<std::uint16_t> destination) const {
+    detail::check(decimesh_progressive_copy_indices(get(), step, DECIMESH_INDEX_U16, detail::room_of(destination),
+                                                    destination.size()));
+    return 3 * triangle_count(step);
+}
+
+inline Mesh Progressive::mesh(std::size_t step) const {
+    decimesh_mesh *mesh = nullptr;
+    detail::check(decimesh_progressive_mesh(get(), step, &mesh));
+    return Mesh::adopt(mesh);
+}
+
+inline std::vector<Progressive::Mark> Progressive::marks() const {
+    std::vector<Mark> marks(decimesh_progressive_mark_count(get()));
+    for (std::size_t mark = 0; mark < marks.size(); ++mark) {
+        detail::check(decimesh_progressive_mark(get(), mark, &marks[mark].step, &marks[mark].error));
+    }
+    return marks;
+}
+
+inline Player::Player(const Progressive &progressive) {
+    decimesh_player *handle = nullptr;
+    detail::check(decimesh_player_create(progressive.get(), &handle));
+    handle_.reset(handle);
+}
+
+inline std::size_t Player::copy_indices(Span<std::uint32_t> destination) const {
+    detail::check(decimesh_player_copy_indices(get(), DECIMESH_INDEX_U32, detail::room_of(destination),
+                                               destination.size()));
+    return 3 * triangle_count();
+}
+
+inline std::size_t Player::copy_indices(Span<std::uint16_t> destination) const {
+    detail::check(decimesh_player_copy_indices(get(), DECIMESH_INDEX_U16, detail::room_of(destination),
+                                               destination.size()));
+    return 3 * triangle_count();
+}
+
+inline bool Player::finer() {
+    const std::size_t before = step();
+    detail::check(decimesh_player_finer(handle_.get()));
+    return step() != before;
+}
+
+inline bool Player::coarser() {
+    const std::size_t before = step();
+    detail::check(decimesh_player_coarser(handle_.get()));
+    return step() != before;
+}
+
+inline void Player::go_to(std::size_t step) {
+    detail::check(decimesh_player_go_to(handle_.get(), step));
+}
+
+inline Bound bound(MeshView a, MeshView b, const BoundOptions &options) {
+    detail::BoundCall call(options);
+    auto raw = detail::sized<decimesh_bound_result>();
+    call.check(decimesh_bound(a.get(), b.get(), &call.raw, &raw));
+    return {raw.lower, raw.upper, raw.diagonal, raw.pieces};
 }
 
 inline Deviation deviation(MeshView a, MeshView b, const DeviationOptions &options) {

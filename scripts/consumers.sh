@@ -58,6 +58,10 @@ consume() {
     local prefix=$1 out=$2
     build cpp-tests/consumers/find_package "$out/find_package" "-DCMAKE_PREFIX_PATH=$prefix"
     run_all "$out"/find_package/{cpp-shared,cpp-static,c-shared}
+    local example
+    for example in "$out"/find_package/examples/{c/decimesh-example-c,cpp/decimesh-example-cpp}-*; do
+        quietly "$example"
+    done
 
     mkdir -p "$out/pkg_config"
     PKG_CONFIG_PATH=$prefix/lib/pkgconfig quietly make -C cpp-tests/consumers/pkg_config "OUT=$out/pkg_config"

@@ -10,9 +10,22 @@ use std::path::{Path, PathBuf};
 use decimesh::capi::decimesh_status_name;
 
 /// In the order in which a reader wants them.
-const SOURCES: [&str; 9] =
-    ["version", "status", "progress", "buffers", "mesh", "statistics", "simplify", "engine", "levels"];
-const LAST_SOURCE: &str = "deviation";
+const SOURCES: [&str; 14] = [
+    "version",
+    "status",
+    "progress",
+    "buffers",
+    "mesh",
+    "statistics",
+    "simplify",
+    "engine",
+    "levels",
+    "deviation",
+    "bound",
+    "nested",
+    "progressive",
+    "player",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -25,7 +38,7 @@ fn header_path() -> PathBuf {
 fn generated() -> String {
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is good");
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for source in SOURCES.iter().chain([&LAST_SOURCE]) {
+    for source in SOURCES {
         builder = builder.with_src(root().join(format!("src/capi/{source}.rs")));
     }
     let mut text = Vec::new();

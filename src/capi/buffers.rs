@@ -3,7 +3,7 @@
 use super::entry::null;
 use super::status::{
     DECIMESH_ERROR_EMPTY, DECIMESH_ERROR_ENUM, DECIMESH_ERROR_INDEX_COUNT, DECIMESH_ERROR_OUT_OF_MEMORY,
-    DECIMESH_ERROR_OVERFLOW, DECIMESH_ERROR_STRIDE, Failure,
+    DECIMESH_ERROR_OVERFLOW, DECIMESH_ERROR_STRIDE, DECIMESH_ERROR_TOO_LARGE, Failure,
 };
 use super::structs::{self, Versioned};
 use crate::mesh::{Attributes, Mesh};
@@ -210,6 +210,7 @@ pub(super) unsafe fn read_mesh(buffers: &decimesh_buffers) -> Result<Mesh, Failu
         let message = format!("index_count is {index_count}, no multiple of three");
         return Err(Failure::new(DECIMESH_ERROR_INDEX_COUNT, message));
     }
+    check_index_type(index_type)?;
     limit("vertex_count", vertex_count, u32::MAX as usize)?;
     limit("index_count", index_count, 3 * Mesh::MAX_TRIANGLES)?;
     // SAFETY: as the caller of this function promises.
@@ -218,19 +219,11 @@ pub(super) unsafe fn read_mesh(buffers: &decimesh_buffers) -> Result<Mesh, Failu
         let normals = optional("normals", buffers.normals, buffers.normals_stride, vertex_count)?;
         let uvs = optional("uvs", buffers.uvs, buffers.uvs_stride, vertex_count)?;
         let colors = optional("colors", buffers.colors, buffers.colors_stride, vertex_count)?;
-        let triangles = match index_type {
-            DECIMESH_INDEX_U32 => gather("indices", buffers.indices.cast::<u32>(), 0, index_count / 3)?,
-            DECIMESH_INDEX_U16 => {
-                let narrow = gather("indices", buffers.indices.cast::<u16>(), 0, index_count / 3)?;
-                narrow.into_iter().map(|triangle: [u16; 3]| triangle.map(u32::from)).collect()
-            }
-            _ => {
-                let message = format!(
-                    "index_type is {index_type}, neither DECIMESH_INDEX_U16 ({DECIMESH_INDEX_U16}) nor \
-                     DECIMESH_INDEX_U32 ({DECIMESH_INDEX_U32})"
-                );
-                return Err(Failure::new(DECIMESH_ERROR_ENUM, message));
-            }
+        let triangles = if index_type == DECIMESH_INDEX_U16 {
+            let narrow = gather("indices", buffers.indices.cast::<u16>(), 0, index_count / 3)?;
+            narrow.into_iter().map(|triangle: [u16; 3]| triangle.map(u32::from)).collect()
+        } else {
+            gather("indices", buffers.indices.cast::<u32>(), 0, index_count / 3)?
         };
         Ok(Mesh::with_attributes(positions, triangles, Attributes { normals, colors, uvs })?)
     }
@@ -258,7 +251,7 @@ unsafe fn optional<T: Copy, const N: usize>(
 ///
 /// # Safety
 /// `first` points to so many, aligned or not.
-unsafe fn gather<T: Copy, const N: usize>(
+pub(super) unsafe fn gather<T: Copy, const N: usize>(
     name: &str,
     first: *const T,
     stride: usize,
@@ -316,7 +309,64 @@ unsafe fn scatter<T: Copy, const N: usize>(
     }
 }
 
-/// Writes indices of `index_type`, which [`read_mesh`] has found to be one.
+/// Writes `elements` one after the other, if there is somewhere to write to.
+///
+/// # Safety
+/// `first` is NULL, or there is room for them.
+pub(super) unsafe fn write_elements<T: Copy>(first: *mut T, elements: &[T]) {
+    if !first.is_null() {
+        // SAFETY: as the caller of this function promises; the memory is not ours. Bytes need no alignment.
+        unsafe {
+            ptr::copy_nonoverlapping(elements.as_ptr().cast::<u8>(), first.cast(), size_of_val(elements));
+        }
+    }
+}
+
+/// The caller's memory for the indices of a level.
+pub(super) struct IndexRoom {
+    pub(super) index_type: decimesh_index_type,
+    pub(super) destination: *mut c_void,
+    /// How many indices it has room for.
+    pub(super) room: usize,
+}
+
+impl IndexRoom {
+    /// Copies a level of so many `vertices`.
+    ///
+    /// # Safety
+    /// There is as much room as it says.
+    pub(super) unsafe fn copy(&self, triangles: &[[u32; 3]], vertices: usize) -> Result<(), Failure> {
+        let &Self { index_type, destination, room } = self;
+        let indices = triangles.as_flattened();
+        check_index_type(index_type)?;
+        let too_large = |message: String| Err(Failure::new(DECIMESH_ERROR_TOO_LARGE, message));
+        if indices.len() > room {
+            return too_large(format!(
+                "the level has {} indices, more than the room of {room}",
+                indices.len()
+            ));
+        }
+        if index_type == DECIMESH_INDEX_U16 && vertices > 1 << 16 {
+            return too_large(format!("the level has {vertices} vertices, more than 16 bits can name"));
+        }
+        // SAFETY: as the caller of this function promises, and they have just been seen to fit.
+        unsafe { write_indices(destination, index_type, indices.iter().copied()) };
+        Ok(())
+    }
+}
+
+fn check_index_type(index_type: decimesh_index_type) -> Result<(), Failure> {
+    if matches!(index_type, DECIMESH_INDEX_U16 | DECIMESH_INDEX_U32) {
+        return Ok(());
+    }
+    let message = format!(
+        "index_type is {index_type}, neither DECIMESH_INDEX_U16 ({DECIMESH_INDEX_U16}) nor DECIMESH_INDEX_U32 \
+         ({DECIMESH_INDEX_U32})"
+    );
+    Err(Failure::new(DECIMESH_ERROR_ENUM, message))
+}
+
+/// Writes indices of `index_type`, which [`check_index_type`] has found to be one.
 ///
 /// # Safety
 /// There is room for them, and indices of 16 bits hold them.

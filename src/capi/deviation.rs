@@ -161,7 +161,7 @@ pub unsafe extern "C" fn decimesh_deviation(
                 threads: options.threads as usize,
             };
             let mut monitor = monitor(options.progress, options.progress_user);
-            let measured = deviation(&(*a).mesh, &(*b).mesh, &sampling, &mut monitor)?;
+            let measured = deviation((*a).mesh(), (*b).mesh(), &sampling, &mut monitor)?;
             structs::write(result, size, &measured.into());
         }
         Ok(())

@@ -10,16 +10,16 @@ use super::status::{DECIMESH_ERROR_TOO_LARGE, Failure, decimesh_status};
 use super::structs;
 use crate::hqms::{Options, Placement, Simplified, simplify};
 use crate::mesh::weld::shared_places;
-use crate::monitor::Monitor;
 use std::ffi::c_void;
 
 /// Simplifies to indices alone: all levels of detail share the caller's vertices, which are not changed.
 ///
 /// destination has room for buffers->index_count indices of buffers->index_type, and may be
 /// buffers->indices itself. It receives *index_count indices. The placement is
-/// DECIMESH_PLACEMENT_EXISTING, whatever the options say. Attributes may be left NULL: with
-/// options->keep_seams, vertices that share a place are found by their positions.
-/// options->origins, if asked for, names the caller's vertices.
+/// DECIMESH_PLACEMENT_EXISTING, whatever the options say. With options->keep_seams, vertices that share a
+/// place are found by their positions, and go along their seams together. Attributes may be left NULL; only
+/// those that are given and have a weight count as error. options->origins, if asked for, names the caller's
+/// vertices.
 ///
 /// Where the topology had to be given up (report->topology_changed), a vertex at which the surface was
 /// parted serves both parts.
@@ -27,8 +27,8 @@ use std::ffi::c_void;
 /// *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
 /// decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
 ///
-/// Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. Any thread;
-/// progress is told on the calling one.
+/// Linear time; about 60 bytes of memory a triangle, the copy of the buffers included, and 75 if normals have
+/// a weight. Any thread; progress is told on the calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_simplify_indices(
     destination: *mut c_void,
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn decimesh_simplify_indices(
             let (own, options) = decimesh_simplify_options::read(options)?;
             let options = Options { placement: Placement::Existing, ..options };
             let report = ReportPlace::new(report)?;
-            let (result, places) = simplify_buffers(&buffers, options, &mut own.monitor())?;
+            let (result, places) = simplify_buffers(&buffers, &own, options)?;
             report.write(&(&result).into());
             hand_over(&result, &places, destination, buffers.index_type, index_count, &own);
         }
@@ -57,8 +57,9 @@ pub unsafe extern "C" fn decimesh_simplify_indices(
 /// A vertex of the result takes the place of one that went into it, so that further streams of the
 /// vertex buffer stay where they are and nothing moves; vertices that no index names any more keep what
 /// they had. buffers->indices receives *index_count indices; with DECIMESH_PLACEMENT_EXISTING that is
-/// all that changes. options->origins, if asked for, names the caller's vertices. With
-/// options->keep_seams, vertices that share a place are found by their positions.
+/// all that changes, as by decimesh_simplify_indices(). options->origins, if asked for, names the caller's
+/// vertices. With options->keep_seams, vertices that share a place are found by their positions, whether
+/// there are attributes or not.
 ///
 /// *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
 /// decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
@@ -79,7 +80,7 @@ pub unsafe extern "C" fn decimesh_simplify_in_place(
             let (own, options) = decimesh_simplify_options::read(options)?;
             let report = ReportPlace::new(report)?;
             let moves = options.placement == Placement::Optimal;
-            let (result, mut places) = simplify_buffers(&buffers.shared(), options, &mut own.monitor())?;
+            let (result, mut places) = simplify_buffers(&buffers.shared(), &own, options)?;
             if moves {
                 part(&mut places, buffers.vertex_count, buffers.index_type)?;
                 buffers.write_vertices(&result.mesh, &places);
@@ -94,20 +95,24 @@ pub unsafe extern "C" fn decimesh_simplify_in_place(
 /// The simplified mesh of `buffers`, and for each of its vertices the caller's whose place it takes.
 ///
 /// # Safety
-/// As for [`read_mesh`].
+/// As for [`read_mesh`], and the pointers of `own` are good.
 unsafe fn simplify_buffers(
     buffers: &decimesh_buffers,
-    mut options: Options,
-    monitor: &mut Monitor,
+    own: &decimesh_simplify_options,
+    options: Options,
 ) -> Result<(Simplified, Vec<u32>), Failure> {
     // SAFETY: as the caller of this function promises.
-    let mesh = unsafe { read_mesh(buffers)? };
-    if options.keep_seams {
+    let (mesh, mut options, mut monitor) = unsafe {
+        let mesh = read_mesh(buffers)?;
+        let options = own.complete(options, &mesh)?;
+        (mesh, options, own.monitor())
+    };
+    if options.keep_seams && options.placement == Placement::Optimal {
         // The vertex buffer may have attributes that this call is not shown.
         options.locked.extend(shared_places(&mesh));
     }
     options.track_sources = true;
-    let mut result = simplify(&mesh, &options, monitor)?;
+    let mut result = simplify(&mesh, &options, &mut monitor)?;
     let places = result.sources.take().unwrap_or_default();
     Ok((result, places))
 }
@@ -133,10 +138,11 @@ fn part(places: &mut [u32], count: usize, index_type: decimesh_index_type) -> Re
     Ok(())
 }
 
-/// Writes the indices, how many there are, and the origins, all in the caller's names for vertices.
+/// Writes the indices, how many there are, the origins, all in the caller's names for vertices, and the
+/// groups.
 ///
 /// # Safety
-/// There is room for as many indices and origins as the input had.
+/// There is room for as many of each as the input had.
 unsafe fn hand_over(
     result: &Simplified,
     places: &[u32],
@@ -156,6 +162,6 @@ unsafe fn hand_over(
     unsafe {
         write_indices(destination, index_type, indices.iter().map(place));
         index_count.write(indices.len());
-        options.write_origins(origins.as_deref());
+        options.write_elements(origins.as_deref(), result.groups.as_deref());
     }
 }

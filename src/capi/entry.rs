@@ -23,8 +23,8 @@ pub(super) fn null(name: &str) -> Failure {
     Failure::new(status::DECIMESH_ERROR_NULL, format!("{name} is NULL"))
 }
 
-/// Runs the body of an entry. Nothing that it was given is looked at again after a panic: handles do not
-/// change, and out-parameters are written last.
+/// Runs the body of an entry. Nothing that it was given is looked at again after a panic: most handles do not
+/// change, those that do may only be destroyed then, and out-parameters are written last.
 pub(super) fn run(body: impl FnOnce() -> Result<(), Failure>) -> decimesh_status {
     match catch_unwind(AssertUnwindSafe(body)) {
         Ok(Ok(())) => DECIMESH_OK,

@@ -1,16 +1,17 @@
 //! `decimesh_levels`: a chain of levels of detail.
 
+use super::buffers::gather;
 use super::entry::entry;
 use super::mesh::decimesh_mesh;
 use super::simplify::{ReportPlace, decimesh_simplify_options, decimesh_simplify_report};
 use super::status::{
-    DECIMESH_ERROR_EMPTY, DECIMESH_ERROR_NOT_FINITE, DECIMESH_ERROR_OPTION, DECIMESH_ERROR_OUT_OF_RANGE,
-    DECIMESH_ERROR_OVERFLOW, Failure, decimesh_status,
+    DECIMESH_ERROR_EMPTY, DECIMESH_ERROR_NOT_FINITE, DECIMESH_ERROR_OUT_OF_RANGE, Failure, decimesh_status,
 };
 use super::structs;
-use crate::hqms::build_levels;
+use crate::hqms::{Options, Target, build_levels};
 use crate::lod::coarsest_within;
-use std::slice;
+use crate::mesh::Mesh;
+use std::ptr;
 
 /// Levels of detail of one mesh, from fine to coarse: immutable.
 ///
@@ -18,6 +19,7 @@ use std::slice;
 pub struct decimesh_levels {
     meshes: Vec<decimesh_mesh>,
     reports: Vec<decimesh_simplify_report>,
+    groups: Vec<Option<Vec<u32>>>,
 }
 
 impl decimesh_levels {
@@ -30,14 +32,40 @@ impl decimesh_levels {
     }
 }
 
+/// What levels of `mesh` are to be made with: the caller's options, the targets, and the library's options.
+///
+/// # Safety
+/// Neither pointer is NULL; they point to a struct as long as its first field says, whose pointers are good,
+/// and to `count` values.
+pub(super) unsafe fn read_chain(
+    mesh: &Mesh,
+    options: *const decimesh_simplify_options,
+    target_values: *const f64,
+    count: usize,
+) -> Result<(decimesh_simplify_options, Vec<Target>, Options), Failure> {
+    if count == 0 {
+        return Err(Failure::new(DECIMESH_ERROR_EMPTY, "count is 0: there is no level to make"));
+    }
+    // SAFETY: as the caller of this function promises.
+    unsafe {
+        let own: decimesh_simplify_options = structs::read(options)?;
+        let values = gather("target_values", target_values, 0, count)?;
+        let targets = values.iter().map(|&[value]| own.target(value)).collect::<Result<Vec<_>, _>>()?;
+        let options = own.with_target(targets[0])?;
+        own.refuse_elements()?;
+        let options = own.complete(options, mesh)?;
+        Ok((own, targets, options))
+    }
+}
+
 /// Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
 ///
 /// target_values has count values, at least 1, from fine to coarse; each is what options->target_value is
-/// for one simplification, which is not looked at here. options->origins must be NULL. A level that cannot
-/// be met is the same mesh as the one before, and its report says why.
+/// for one simplification, which is not looked at here. options->origins and options->result_groups must be
+/// NULL. A level that cannot be met is the same mesh as the one before, and its report says why.
 ///
 /// *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
-/// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+/// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
 /// Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
 /// calling one.
@@ -50,28 +78,15 @@ pub unsafe extern "C" fn decimesh_levels_build(
     levels: *mut *mut decimesh_levels,
 ) -> decimesh_status {
     entry!([mesh, options, target_values, levels] {
-        if count == 0 {
-            return Err(Failure::new(DECIMESH_ERROR_EMPTY, "count is 0: there is no level to make"));
-        }
-        if count > isize::MAX as usize / size_of::<f64>() {
-            let message = format!("count is {count}, more values than the address space has room for");
-            return Err(Failure::new(DECIMESH_ERROR_OVERFLOW, message));
-        }
         // SAFETY: none is NULL, and the caller vouches for what they point to.
         unsafe {
-            let own: decimesh_simplify_options = structs::read(options)?;
-            let values = slice::from_raw_parts(target_values, count).iter();
-            let targets = values.map(|&value| own.target(value)).collect::<Result<Vec<_>, _>>()?;
-            let options = own.with_target(targets[0])?;
-            if options.track_origins {
-                let message = "origins must be NULL: levels have none";
-                return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
-            }
-            let results = build_levels(&(*mesh).mesh, &targets, &options, &mut own.monitor())?;
+            let mesh = (*mesh).mesh();
+            let (own, targets, options) = read_chain(mesh, options, target_values, count)?;
+            let mut results = build_levels(mesh, &targets, &options, &mut own.monitor())?;
             let reports = results.iter().map(Into::into).collect();
-            let meshes =
-                results.into_iter().map(|result| decimesh_mesh { mesh: result.mesh, is_borrowed: true });
-            let chain = decimesh_levels { meshes: meshes.collect(), reports };
+            let groups = results.iter_mut().map(|result| result.groups.take()).collect();
+            let meshes = results.into_iter().map(|result| decimesh_mesh::part(result.mesh));
+            let chain = decimesh_levels { meshes: meshes.collect(), reports, groups };
             levels.write(Box::into_raw(Box::new(chain)));
         }
         Ok(())
@@ -131,6 +146,28 @@ pub unsafe extern "C" fn decimesh_levels_report(
         unsafe {
             (*levels).check(level)?;
             ReportPlace::new(report)?.write(&(&(*levels).reports)[level]);
+        }
+        Ok(())
+    })
+}
+
+/// The group of each triangle of a level, 0 being the finest, if options->triangle_groups were given: into
+/// *groups, which becomes NULL if not.
+///
+/// They belong to the chain and are valid until it ends. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+/// any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_groups(
+    levels: *const decimesh_levels,
+    level: usize,
+    groups: *mut *const u32,
+) -> decimesh_status {
+    entry!([levels, groups] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe {
+            let levels = &*levels;
+            levels.check(level)?;
+            groups.write(levels.groups[level].as_ref().map_or(ptr::null(), |groups| groups.as_ptr()));
         }
         Ok(())
     })

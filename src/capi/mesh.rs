@@ -8,25 +8,52 @@ use crate::io::{self, Encoding, WriteOptions};
 use crate::mesh::{Mesh, Weld};
 use std::ffi::{CStr, c_char};
 use std::path::Path;
-use std::ptr;
+use std::ptr::{self, NonNull};
 
 /// A triangle mesh: positions, triangles and attributes, validated when it was made and immutable since.
 ///
 /// A const decimesh_mesh* may be used from many threads at once. It is ended by decimesh_mesh_destroy(),
-/// unless it belongs to a decimesh_levels.
+/// unless it belongs to another handle, such as a decimesh_levels.
 pub struct decimesh_mesh {
-    pub(super) mesh: Mesh,
+    held: Held,
     /// It belongs to other memory, and ends with it.
-    pub(super) is_borrowed: bool,
+    is_borrowed: bool,
+}
+
+enum Held {
+    Here(Mesh),
+    /// In the handle that this one is a part of.
+    Elsewhere(NonNull<Mesh>),
 }
 
 impl decimesh_mesh {
+    /// A mesh that is a part of another handle, and ends with it.
+    pub(super) fn part(mesh: Mesh) -> Self {
+        Self { held: Held::Here(mesh), is_borrowed: true }
+    }
+
+    /// The same, where the other handle needs the mesh in a place of its own.
+    ///
+    /// # Safety
+    /// The mesh stays where it is, and unchanged, for as long as this handle is used.
+    pub(super) unsafe fn part_elsewhere(mesh: &Mesh) -> Self {
+        Self { held: Held::Elsewhere(NonNull::from(mesh)), is_borrowed: true }
+    }
+
+    pub(super) fn mesh(&self) -> &Mesh {
+        match &self.held {
+            Held::Here(mesh) => mesh,
+            // SAFETY: as whoever called `part_elsewhere` promised.
+            Held::Elsewhere(mesh) => unsafe { mesh.as_ref() },
+        }
+    }
+
     /// Hands a mesh of its own to the caller.
     ///
     /// # Safety
     /// `place` is the caller's to write to.
     pub(super) unsafe fn give(mesh: Mesh, place: *mut *mut Self) {
-        let handle = Box::into_raw(Box::new(Self { mesh, is_borrowed: false }));
+        let handle = Box::into_raw(Box::new(Self { held: Held::Here(mesh), is_borrowed: false }));
         // SAFETY: as the caller of this function promises.
         unsafe { place.write(handle) };
     }
@@ -108,7 +135,7 @@ pub unsafe extern "C" fn decimesh_mesh_write(
             _ => return Err(Failure::new(DECIMESH_ERROR_ENUM, format!("encoding is {encoding}, which is none"))),
         };
         // SAFETY: neither is NULL, and the caller vouches for what they point to.
-        unsafe { io::write(&(*mesh).mesh, text(path)?, &WriteOptions { encoding })? };
+        unsafe { io::write((*mesh).mesh(), text(path)?, &WriteOptions { encoding })? };
         Ok(())
     })
 }
@@ -130,7 +157,7 @@ pub unsafe extern "C" fn decimesh_mesh_weld(
     entry!([mesh, welded] {
         // SAFETY: neither is NULL, and the caller vouches for what they point to.
         unsafe {
-            let result = (*mesh).mesh.weld(Weld::Tolerance(tolerance))?;
+            let result = (*mesh).mesh().weld(Weld::Tolerance(tolerance))?;
             decimesh_mesh::give(result.mesh, welded);
         }
         Ok(())
@@ -138,7 +165,7 @@ pub unsafe extern "C" fn decimesh_mesh_weld(
 }
 
 /// Ends a mesh: its memory is given back, and pointers into it are void. NULL is left alone, as is a mesh
-/// that belongs to a decimesh_levels.
+/// that belongs to another handle.
 ///
 /// No other thread may use the mesh any more.
 #[unsafe(no_mangle)]
@@ -155,14 +182,14 @@ pub unsafe extern "C" fn decimesh_mesh_destroy(mesh: *mut decimesh_mesh) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_mesh_vertex_count(mesh: *const decimesh_mesh) -> usize {
     // SAFETY: NULL or a living handle.
-    unsafe { mesh.as_ref() }.map_or(0, |handle| handle.mesh.positions().len())
+    unsafe { mesh.as_ref() }.map_or(0, |handle| handle.mesh().positions().len())
 }
 
 /// How many triangles a mesh has; 0 for NULL. Constant time; any thread; never fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_mesh_triangle_count(mesh: *const decimesh_mesh) -> usize {
     // SAFETY: NULL or a living handle.
-    unsafe { mesh.as_ref() }.map_or(0, |handle| handle.mesh.triangles().len())
+    unsafe { mesh.as_ref() }.map_or(0, |handle| handle.mesh().triangles().len())
 }
 
 /// The positions: x, y and z of each vertex, without a gap; NULL for NULL.
@@ -172,7 +199,7 @@ pub unsafe extern "C" fn decimesh_mesh_triangle_count(mesh: *const decimesh_mesh
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_mesh_positions(mesh: *const decimesh_mesh) -> *const f32 {
     // SAFETY: NULL or a living handle.
-    unsafe { mesh.as_ref() }.map_or(ptr::null(), |handle| handle.mesh.positions().as_ptr().cast())
+    unsafe { mesh.as_ref() }.map_or(ptr::null(), |handle| handle.mesh().positions().as_ptr().cast())
 }
 
 /// The indices: three a triangle, counter-clockwise from outside; NULL for NULL.
@@ -182,7 +209,7 @@ pub unsafe extern "C" fn decimesh_mesh_positions(mesh: *const decimesh_mesh) -> 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_mesh_indices(mesh: *const decimesh_mesh) -> *const u32 {
     // SAFETY: NULL or a living handle.
-    unsafe { mesh.as_ref() }.map_or(ptr::null(), |handle| handle.mesh.triangles().as_ptr().cast())
+    unsafe { mesh.as_ref() }.map_or(ptr::null(), |handle| handle.mesh().triangles().as_ptr().cast())
 }
 
 /// The normals: x, y and z of each vertex, without a gap; NULL where there are none, and for NULL.
@@ -192,7 +219,7 @@ pub unsafe extern "C" fn decimesh_mesh_indices(mesh: *const decimesh_mesh) -> *c
 pub unsafe extern "C" fn decimesh_mesh_normals(mesh: *const decimesh_mesh) -> *const f32 {
     // SAFETY: NULL or a living handle.
     let handle = unsafe { mesh.as_ref() };
-    first(handle.and_then(|handle| handle.mesh.attributes().normals.as_deref()))
+    first(handle.and_then(|handle| handle.mesh().attributes().normals.as_deref()))
 }
 
 /// The texture coordinates: u and v of each vertex, without a gap; NULL where there are none, and for NULL.
@@ -202,7 +229,7 @@ pub unsafe extern "C" fn decimesh_mesh_normals(mesh: *const decimesh_mesh) -> *c
 pub unsafe extern "C" fn decimesh_mesh_uvs(mesh: *const decimesh_mesh) -> *const f32 {
     // SAFETY: NULL or a living handle.
     let handle = unsafe { mesh.as_ref() };
-    first(handle.and_then(|handle| handle.mesh.attributes().uvs.as_deref()))
+    first(handle.and_then(|handle| handle.mesh().attributes().uvs.as_deref()))
 }
 
 /// The colours: red, green, blue and alpha of each vertex, without a gap; NULL where there are none, and for
@@ -213,7 +240,7 @@ pub unsafe extern "C" fn decimesh_mesh_uvs(mesh: *const decimesh_mesh) -> *const
 pub unsafe extern "C" fn decimesh_mesh_colors(mesh: *const decimesh_mesh) -> *const u8 {
     // SAFETY: NULL or a living handle.
     let handle = unsafe { mesh.as_ref() };
-    first(handle.and_then(|handle| handle.mesh.attributes().colors.as_deref()))
+    first(handle.and_then(|handle| handle.mesh().attributes().colors.as_deref()))
 }
 
 fn first<T, const N: usize>(values: Option<&[[T; N]]>) -> *const T {
@@ -224,7 +251,7 @@ fn first<T, const N: usize>(values: Option<&[[T; N]]>) -> *const T {
 ///
 /// # Safety
 /// `path` is not NULL and ends with a NUL.
-unsafe fn text<'a>(path: *const c_char) -> Result<&'a Path, Failure> {
+pub(super) unsafe fn text<'a>(path: *const c_char) -> Result<&'a Path, Failure> {
     // SAFETY: as the caller of this function promises.
     match unsafe { CStr::from_ptr(path) }.to_str() {
         Ok(path) => Ok(Path::new(path)),

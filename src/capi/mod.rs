@@ -6,7 +6,8 @@
 //! the two differ. Rust programs use the crate's own API, which this one is made of.
 //!
 //! Rules that hold for all of it:
-//! - Handles are immutable once made, so `const` ones may be used from many threads at once.
+//! - `const` handles may be used from many threads at once; a call that takes one that is not `const`
+//!   changes or ends it, and needs it for itself. Few change: a player, and levels that are certified.
 //! - A call that can fail gives a status, and writes through its out-parameters last, once nothing can
 //!   fail any more.
 //! - What makes a call unsafe is the same for all: a pointer that is not NULL points to what the call's
@@ -16,25 +17,33 @@
 #![allow(unsafe_code, non_camel_case_types)]
 #![allow(clippy::missing_safety_doc, reason = "said once, above: the comments are the C header's")]
 
+mod bound;
 mod buffers;
 mod deviation;
 mod engine;
 mod entry;
 mod levels;
 mod mesh;
+mod nested;
+mod player;
 mod progress;
+mod progressive;
 mod simplify;
 mod statistics;
 mod status;
 mod structs;
 mod version;
 
+pub use bound::*;
 pub use buffers::*;
 pub use deviation::*;
 pub use engine::*;
 pub use levels::*;
 pub use mesh::*;
+pub use nested::*;
+pub use player::*;
 pub use progress::decimesh_progress;
+pub use progressive::*;
 pub use simplify::*;
 pub use statistics::*;
 pub use status::*;

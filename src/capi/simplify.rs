@@ -1,5 +1,6 @@
 //! `decimesh_simplify`, and the options and the report that all simplifications share.
 
+use super::buffers::{gather, write_elements};
 use super::entry::{entry, null};
 use super::mesh::decimesh_mesh;
 use super::progress::{decimesh_progress, monitor};
@@ -7,10 +8,13 @@ use super::status::{
     DECIMESH_ERROR_ENUM, DECIMESH_ERROR_OPTION, DECIMESH_ERROR_UNKNOWN_OPTION, Failure, decimesh_status,
 };
 use super::structs::{self, Versioned};
-use crate::hqms::{Options, Placement, Selection, Simplified, StoppedBy, Target, Topology, simplify};
+use crate::hqms::{
+    AttributeWeights, Options, Placement, Selection, Simplified, StoppedBy, Target, Topology, simplify,
+};
+use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use std::ffi::c_void;
-use std::{ptr, slice};
+use std::ptr;
 
 /// What a simplification shall arrive at.
 pub type decimesh_target = i32;
@@ -53,6 +57,13 @@ pub const DECIMESH_STOPPED_BY_ERROR: decimesh_stopped_by = 1;
 /// Every further collapse would change the topology, fold a face over, or move a locked vertex.
 pub const DECIMESH_STOPPED_BY_STUCK: decimesh_stopped_by = 2;
 
+/// A vertex that stays, bit for bit: a bit of decimesh_simplify_options.vertex_flags, as the next two are.
+pub const DECIMESH_VERTEX_LOCK: u8 = 1;
+/// A vertex that goes along seams only, whatever cross_seams says.
+pub const DECIMESH_VERTEX_PROTECT: u8 = 2;
+/// A vertex that is kept as long as others can go: it costs a hundred times as much.
+pub const DECIMESH_VERTEX_PRIORITIZE: u8 = 4;
+
 /// How to simplify. decimesh_simplify_options_init() sets the defaults.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -73,9 +84,13 @@ pub struct decimesh_simplify_options {
     pub placement: decimesh_placement,
     /// 1: vertices of the border stay, bit for bit; by default 0.
     pub lock_boundary: i32,
-    /// 1: vertices that share a place with others, as along the seams of textures, stay, bit for bit, so
-    /// that no crack opens; 0: the sides of a seam may part. By default 1. It concerns meshes with
-    /// attributes, and the calls on the caller's own buffers.
+    /// 1: where several vertices are at one place, as along the seams of textures and the creases of normals,
+    /// no crack opens; 0: the sides of a seam are borders, and part. By default 1.
+    ///
+    /// With DECIMESH_PLACEMENT_EXISTING such vertices go along their seam together, and are known by their
+    /// places, with attributes or without. With DECIMESH_PLACEMENT_OPTIMAL they stay, bit for bit, where the
+    /// mesh has attributes and in decimesh_simplify_in_place(); what is all seams, such as a faceted mesh,
+    /// then gets stuck.
     pub keep_seams: i32,
     /// Threads to use, 0: all that the machine has. The result is the same, byte for byte; by default 0.
     pub threads: u32,
@@ -92,6 +107,29 @@ pub struct decimesh_simplify_options {
     pub progress: decimesh_progress,
     /// Handed to progress as it is.
     pub progress_user: *mut c_void,
+    /// What a difference of 1 in a coordinate of a normal weighs, beside a distance as long as the longest
+    /// side of the bounding box: finite, not negative; by default 0, no say. The three weights are for
+    /// DECIMESH_PLACEMENT_EXISTING; otherwise they change nothing.
+    pub normal_weight: f32,
+    /// The same for a texture coordinate.
+    pub uv_weight: f32,
+    /// The same for a channel of a colour, from none (0) to full (255).
+    pub color_weight: f32,
+    /// 1: with DECIMESH_PLACEMENT_EXISTING vertices may go across seams too, at the cost of the attributes by
+    /// their weights: what was on one side then takes the nearest attributes of the other. The surface stays
+    /// closed. It is for meshes of many small charts, and for faceted ones, which otherwise get stuck.
+    /// By default 0.
+    pub cross_seams: i32,
+    /// The group of each triangle of the input, such as its material, or NULL: where groups meet, their
+    /// border stays a border. For DECIMESH_PLACEMENT_EXISTING only.
+    pub triangle_groups: *const u32,
+    /// NULL, or room for one group a triangle of the input, where triangle_groups is not NULL. It receives
+    /// the group of each triangle of the result. Levels have calls of their own for theirs.
+    pub result_groups: *mut u32,
+    /// For each vertex of the input what it may do, DECIMESH_VERTEX_ bits or 0; or NULL.
+    /// locked_vertices count as well. The last two bits are for DECIMESH_PLACEMENT_EXISTING; otherwise they
+    /// change nothing.
+    pub vertex_flags: *const u8,
 }
 
 // SAFETY: repr(C); integers, a double, pointers and sizes that leave no gap between them; a function
@@ -117,6 +155,13 @@ unsafe impl Versioned for decimesh_simplify_options {
             origins: ptr::null_mut(),
             progress: None,
             progress_user: ptr::null_mut(),
+            normal_weight: 0.0,
+            uv_weight: 0.0,
+            color_weight: 0.0,
+            cross_seams: 0,
+            triangle_groups: ptr::null(),
+            result_groups: ptr::null_mut(),
+            vertex_flags: ptr::null(),
         }
     }
 }
@@ -143,6 +188,12 @@ pub struct decimesh_simplify_report {
     pub passes: u32,
     /// Always 0.
     pub reserved: u32,
+    /// Estimated largest difference of the attributes from the input's, by their weights: in units of the
+    /// positions, a difference of 1 being the weight times the longest side of the bounding box. 0 where no
+    /// attribute has a weight.
+    pub attribute_error: f32,
+    /// Always 0.
+    pub reserved_padding: u32,
 }
 
 // SAFETY: repr(C); integers and floats that leave no gap between them.
@@ -154,20 +205,25 @@ unsafe impl Versioned for decimesh_simplify_report {
     }
 }
 
+pub(super) fn stopped_by(reason: StoppedBy) -> decimesh_stopped_by {
+    match reason {
+        StoppedBy::Target => DECIMESH_STOPPED_BY_TARGET,
+        StoppedBy::Error => DECIMESH_STOPPED_BY_ERROR,
+        StoppedBy::Stuck => DECIMESH_STOPPED_BY_STUCK,
+    }
+}
+
 impl From<&Simplified> for decimesh_simplify_report {
     fn from(simplified: &Simplified) -> Self {
         Self {
-            stopped_by: match simplified.stopped_by {
-                StoppedBy::Target => DECIMESH_STOPPED_BY_TARGET,
-                StoppedBy::Error => DECIMESH_STOPPED_BY_ERROR,
-                StoppedBy::Stuck => DECIMESH_STOPPED_BY_STUCK,
-            },
+            stopped_by: stopped_by(simplified.stopped_by),
             triangles: simplified.mesh.triangles().len() as u64,
             vertices: simplified.mesh.positions().len() as u64,
             locked_vertices: simplified.locked as u64,
             error: simplified.error,
             topology_changed: simplified.topology_changed.into(),
             passes: u32::try_from(simplified.passes).unwrap_or(u32::MAX),
+            attribute_error: simplified.attribute_error,
             ..Self::initial()
         }
     }
@@ -213,7 +269,7 @@ impl decimesh_simplify_options {
         }
     }
 
-    /// The options with this target in place of their own.
+    /// The options with this target in place of their own, but for what [`complete`](Self::complete) adds.
     ///
     /// # Safety
     /// The pointers are good.
@@ -246,17 +302,63 @@ impl decimesh_simplify_options {
             // SAFETY: as the caller of this function promises.
             (false, count) => unsafe { read_locked(self.locked_vertices, count)? },
         };
+        if self.triangle_groups.is_null() && !self.result_groups.is_null() {
+            let message = "result_groups must be NULL where triangle_groups is: there are no groups";
+            return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
+        }
         Ok(Options {
             selection,
             topology,
             placement,
             lock_boundary: switch("lock_boundary", self.lock_boundary)?,
             keep_seams: switch("keep_seams", self.keep_seams)?,
+            cross_seams: switch("cross_seams", self.cross_seams)?,
+            attribute_weights: AttributeWeights {
+                normals: self.normal_weight,
+                uvs: self.uv_weight,
+                colors: self.color_weight,
+            },
             locked,
             threads: self.threads as usize,
             track_origins: !self.origins.is_null(),
             ..Options::new(target)
         })
+    }
+
+    /// `options` with what there is one of for each vertex or triangle of `mesh`.
+    ///
+    /// # Safety
+    /// The pointers are good.
+    pub(super) unsafe fn complete(&self, mut options: Options, mesh: &Mesh) -> Result<Options, Failure> {
+        if !self.triangle_groups.is_null() {
+            // SAFETY: as the caller of this function promises.
+            let groups =
+                unsafe { gather("triangle_groups", self.triangle_groups, 0, mesh.triangles().len())? };
+            options.groups = Some(groups.iter().map(|&[group]| group).collect());
+        }
+        if !self.vertex_flags.is_null() {
+            for vertex in 0..mesh.positions().len() {
+                // SAFETY: as the caller of this function promises.
+                let flags = unsafe { self.vertex_flags.add(vertex).read() };
+                if flags & !VERTEX_FLAGS != 0 {
+                    let message = format!(
+                        "vertex_flags of vertex {vertex} are {flags}, of which {} is no DECIMESH_VERTEX_ bit",
+                        flags & !VERTEX_FLAGS
+                    );
+                    return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
+                }
+                for (flag, list) in [
+                    (DECIMESH_VERTEX_LOCK, &mut options.locked),
+                    (DECIMESH_VERTEX_PROTECT, &mut options.protected),
+                    (DECIMESH_VERTEX_PRIORITIZE, &mut options.prioritized),
+                ] {
+                    if flags & flag != 0 {
+                        list.push(vertex as u32);
+                    }
+                }
+            }
+        }
+        Ok(options)
     }
 
     /// The target of this kind with another value.
@@ -288,19 +390,31 @@ impl decimesh_simplify_options {
         unsafe { monitor(self.progress, self.progress_user) }
     }
 
-    /// Hands `origins` to the caller, if these were asked for.
+    /// Hands origins and groups to the caller, if these were asked for.
     ///
     /// # Safety
     /// What was asked for has room for them.
-    pub(super) unsafe fn write_origins(&self, origins: Option<&[u32]>) {
-        if let Some(origins) = origins
-            && !self.origins.is_null()
-        {
-            // SAFETY: as the caller of this function promises; the memory is not ours.
-            unsafe { ptr::copy_nonoverlapping(origins.as_ptr(), self.origins, origins.len()) };
+    pub(super) unsafe fn write_elements(&self, origins: Option<&[u32]>, groups: Option<&[u32]>) {
+        for (destination, elements) in [(self.origins, origins), (self.result_groups, groups)] {
+            // SAFETY: as the caller of this function promises.
+            unsafe { write_elements(destination, elements.unwrap_or_default()) };
         }
     }
+
+    /// Refuses room for what levels do not have.
+    pub(super) fn refuse_elements(&self) -> Result<(), Failure> {
+        for (name, pointer) in [("origins", self.origins), ("result_groups", self.result_groups)] {
+            if !pointer.is_null() {
+                let message = format!("{name} must be NULL: levels do not fill it");
+                return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
+            }
+        }
+        Ok(())
+    }
 }
+
+/// All bits of `vertex_flags` that mean something.
+const VERTEX_FLAGS: u8 = DECIMESH_VERTEX_LOCK | DECIMESH_VERTEX_PROTECT | DECIMESH_VERTEX_PRIORITIZE;
 
 fn foreign(option: &str, value: i32) -> Failure {
     Failure::new(DECIMESH_ERROR_ENUM, format!("{option} is {value}, which is none of its values"))
@@ -322,7 +436,8 @@ unsafe fn read_locked(first: *const u32, count: usize) -> Result<Vec<u32>, Failu
         return Err(Failure::new(DECIMESH_ERROR_OPTION, message));
     }
     // SAFETY: as the caller of this function promises.
-    Ok(unsafe { slice::from_raw_parts(first, count) }.to_vec())
+    let locked = unsafe { gather("locked_vertices", first, 0, count)? };
+    Ok(locked.iter().map(|&[vertex]| vertex).collect())
 }
 
 /// Sets the defaults: half of the triangles, new vertices, all threads. NULL is left alone.
@@ -353,13 +468,13 @@ pub unsafe extern "C" fn decimesh_simplify_report_init(
 /// Linear Time Algorithm for High Quality Mesh Simplification").
 ///
 /// A target that cannot be met is no failure: the result is then as small as the options allow, and the
-/// report says why it stopped. Attributes are interpolated, and do not count as error. The input is
-/// not changed. The result depends on the mesh and the options alone: not on the threads, nor on the
-/// language of the caller.
+/// report says why it stopped. With DECIMESH_PLACEMENT_OPTIMAL attributes are interpolated, and do not count
+/// as error; with _EXISTING they count by their weights. The input is not changed. The result depends on the
+/// mesh and the options alone: not on the threads, nor on the language of the caller.
 ///
 /// *simplified receives a new mesh, which the caller ends with decimesh_mesh_destroy(). *report, if it is
 /// not NULL, has been set up by decimesh_simplify_report_init. Fails with _NULL, _STRUCT_SIZE,
-/// _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED or _THREADS.
+/// _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
 /// Linear time; about 36 bytes of memory a triangle, and the result. Any thread; progress is told on the
 /// calling one.
@@ -373,11 +488,13 @@ pub unsafe extern "C" fn decimesh_simplify(
     entry!([mesh, options, simplified] {
         // SAFETY: none is NULL but perhaps the report, and the caller vouches for what they point to.
         unsafe {
+            let mesh = (*mesh).mesh();
             let (own, options) = decimesh_simplify_options::read(options)?;
+            let options = own.complete(options, mesh)?;
             let report = ReportPlace::new(report)?;
-            let result = simplify(&(*mesh).mesh, &options, &mut own.monitor())?;
+            let result = simplify(mesh, &options, &mut own.monitor())?;
             report.write(&(&result).into());
-            own.write_origins(result.origins.as_deref());
+            own.write_elements(result.origins.as_deref(), result.groups.as_deref());
             decimesh_mesh::give(result.mesh, simplified);
         }
         Ok(())

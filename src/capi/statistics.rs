@@ -122,7 +122,7 @@ pub unsafe extern "C" fn decimesh_mesh_statistics(
         // SAFETY: neither is NULL, and the caller vouches for what they point to.
         unsafe {
             let size = structs::size(statistics)?;
-            structs::write(statistics, size, &(*mesh).mesh.statistics().into());
+            structs::write(statistics, size, &(*mesh).mesh().statistics().into());
         }
         Ok(())
     })

@@ -3,6 +3,7 @@
 use crate::deviation::DeviationError;
 use crate::hqms::SimplifyError;
 use crate::io::{FileError, ReadError, WriteError};
+use crate::lod::ProgressiveError;
 use crate::mesh::{MeshError, WeldError};
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -37,7 +38,7 @@ pub const DECIMESH_ERROR_INDEX_COUNT: decimesh_status = 9;
 pub const DECIMESH_ERROR_INDEX_RANGE: decimesh_status = 10;
 /// A coordinate or an attribute is infinite or not a number.
 pub const DECIMESH_ERROR_NOT_FINITE: decimesh_status = 11;
-/// A level that does not exist was asked for.
+/// A level, or a mark, that does not exist was asked for.
 pub const DECIMESH_ERROR_OUT_OF_RANGE: decimesh_status = 12;
 /// The system refused to read or to write a file.
 pub const DECIMESH_ERROR_IO: decimesh_status = 13;
@@ -49,9 +50,10 @@ pub const DECIMESH_ERROR_CANCELLED: decimesh_status = 15;
 pub const DECIMESH_ERROR_THREADS: decimesh_status = 16;
 /// A path is not UTF-8.
 pub const DECIMESH_ERROR_UTF8: decimesh_status = 17;
-/// The result does not fit where it is to go, such as a mesh of more than 4 GiB into a glTF file.
+/// The result does not fit where it is to go, such as a mesh of more than 4 GiB into a glTF file, or indices
+/// into less room than they take.
 pub const DECIMESH_ERROR_TOO_LARGE: decimesh_status = 18;
-/// There is not enough memory for a copy of the buffers.
+/// There is not enough memory for a copy of the buffers or lists.
 pub const DECIMESH_ERROR_OUT_OF_MEMORY: decimesh_status = 19;
 /// A bug in decimesh. The handles that the call was given must only be destroyed after that.
 pub const DECIMESH_ERROR_PANIC: decimesh_status = 100;
@@ -136,16 +138,38 @@ impl From<DeviationError> for Failure {
     }
 }
 
+impl From<ProgressiveError> for Failure {
+    fn from(error: ProgressiveError) -> Self {
+        match error {
+            ProgressiveError::Simplify(error) => error.into(),
+            ProgressiveError::Mesh(error) => error.into(),
+            ProgressiveError::VertexOutOfRange { .. }
+            | ProgressiveError::IntoItself { .. }
+            | ProgressiveError::VertexGone { .. }
+            | ProgressiveError::Mark { .. }
+            | ProgressiveError::NotTracked => Self::new(DECIMESH_ERROR_OPTION, error.to_string()),
+        }
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        let message = error.to_string();
+        let status = match error {
+            ReadError::Io(_) => DECIMESH_ERROR_IO,
+            ReadError::Malformed { .. } | ReadError::Unsupported(_) => DECIMESH_ERROR_FORMAT,
+            ReadError::Mesh(error) => Self::from(error).status,
+        };
+        Self::new(status, message)
+    }
+}
+
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         let message = error.to_string();
         let status = match error {
             FileError::UnknownFormat { .. } => DECIMESH_ERROR_FORMAT,
-            FileError::Read { source, .. } => match source {
-                ReadError::Io(_) => DECIMESH_ERROR_IO,
-                ReadError::Malformed { .. } | ReadError::Unsupported(_) => DECIMESH_ERROR_FORMAT,
-                ReadError::Mesh(error) => Self::from(error).status,
-            },
+            FileError::Read { source, .. } => Self::from(source).status,
             FileError::Write { source, .. } => match source {
                 WriteError::Io(_) => DECIMESH_ERROR_IO,
                 WriteError::TooLarge { .. } => DECIMESH_ERROR_TOO_LARGE,

@@ -35,7 +35,14 @@ pub struct NestedLevels {
     order: Vec<u32>,
     levels: Vec<Level>,
     /// Of the levels after the first, whose triangles are those of `mesh`.
-    coarser: Vec<Vec<[u32; 3]>>,
+    coarser: Vec<Coarser>,
+}
+
+/// The triangles of a level.
+#[derive(Debug, Clone, PartialEq)]
+struct Coarser {
+    triangles: Vec<[u32; 3]>,
+    groups: Option<Vec<u32>>,
 }
 
 /// What is known of a level, but for its triangles.
@@ -115,11 +122,15 @@ impl NestedLevels {
             let error = result.error.max(finer.error);
             let names: Vec<u32> = sources.iter().map(|&vertex| names[vertex as usize]).collect();
             let mut triangles = renamed(result.mesh.triangles(), &names);
+            let groups = result.groups.as_ref().map(|groups| {
+                let kept = groups.iter().zip(&triangles).filter(|(_, triangle)| is_face(triangle));
+                kept.map(|(&group, _)| group).collect()
+            });
             triangles.retain(is_face);
             let vertices = vertices[level];
             let Simplified { stopped_by, topology_changed, .. } = **result;
             levels.push(Level { vertices, error, stopped_by, topology_changed, morphs: Vec::new() });
-            coarser.push(triangles);
+            coarser.push(Coarser { triangles, groups });
         }
         Ok(Self { mesh, order, levels, coarser })
     }
@@ -147,8 +158,18 @@ impl NestedLevels {
     pub fn triangles(&self, level: usize) -> &[[u32; 3]] {
         match level.checked_sub(1) {
             None => self.mesh.triangles(),
-            Some(coarser) => &self.coarser[coarser],
+            Some(coarser) => &self.coarser[coarser].triangles,
         }
+    }
+
+    /// The group of each triangle of `level`, if the levels were made with [`Options::groups`]. `None` for
+    /// level 0, whose triangles are those of the input, in their order: its groups are those given.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such level.
+    pub fn groups(&self, level: usize) -> Option<&[u32]> {
+        self.coarser[level.checked_sub(1)?].groups.as_deref()
     }
 
     /// `level` as a mesh of its own, with the vertices of its prefix.

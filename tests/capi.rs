@@ -1,0 +1,219 @@
+//! What C is given is what Rust is given, index by index and bit by bit.
+
+#![cfg(feature = "capi")]
+
+use std::ptr;
+
+use decimesh::capi::*;
+use decimesh::lod::{NestedLevels, Progressive};
+use decimesh::mesh::{Attributes, Mesh, shapes};
+use decimesh::{AttributeWeights, Monitor, Options, Placement, Target, build_levels, simplify};
+use proptest::prelude::*;
+
+mod c_calls;
+use c_calls::succeeded;
+
+/// What both languages are asked for.
+#[derive(Debug, Clone)]
+struct Request {
+    ratio: f64,
+    weights: AttributeWeights,
+    cross_seams: bool,
+    keep_seams: bool,
+    grouped: bool,
+    /// Every so many vertices have a flag.
+    flagged_every: usize,
+}
+
+impl Request {
+    fn groups(&self, mesh: &Mesh) -> Option<Vec<u32>> {
+        self.grouped.then(|| (0..mesh.triangles().len() as u32).map(|triangle| triangle / 64 % 3).collect())
+    }
+
+    fn flags(&self, mesh: &Mesh) -> Vec<u8> {
+        let flag = |vertex: usize| {
+            let is_flagged = vertex.is_multiple_of(self.flagged_every);
+            if is_flagged { (vertex / self.flagged_every % 8) as u8 } else { 0 }
+        };
+        (0..mesh.positions().len()).map(flag).collect()
+    }
+
+    fn in_rust(&self, mesh: &Mesh) -> Options {
+        let flags = self.flags(mesh);
+        let with = |flag: u8| -> Vec<u32> {
+            (0..).zip(&flags).filter(|(_, flags)| **flags & flag != 0).map(|(vertex, _)| vertex).collect()
+        };
+        Options {
+            placement: Placement::Existing,
+            attribute_weights: self.weights,
+            cross_seams: self.cross_seams,
+            keep_seams: self.keep_seams,
+            groups: self.groups(mesh),
+            locked: with(DECIMESH_VERTEX_LOCK),
+            protected: with(DECIMESH_VERTEX_PROTECT),
+            prioritized: with(DECIMESH_VERTEX_PRIORITIZE),
+            track_sources: true,
+            ..Options::new(Target::Ratio(self.ratio))
+        }
+    }
+
+    /// The same for C; `groups` and `flags` must outlive what is done with it.
+    fn in_c(&self, groups: Option<&[u32]>, flags: &[u8]) -> decimesh_simplify_options {
+        decimesh_simplify_options {
+            target_value: self.ratio,
+            placement: DECIMESH_PLACEMENT_EXISTING,
+            keep_seams: self.keep_seams.into(),
+            cross_seams: self.cross_seams.into(),
+            normal_weight: self.weights.normals,
+            uv_weight: self.weights.uvs,
+            color_weight: self.weights.colors,
+            triangle_groups: groups.map_or(ptr::null(), <[u32]>::as_ptr),
+            vertex_flags: flags.as_ptr(),
+            ..c_calls::options()
+        }
+    }
+}
+
+fn requests() -> impl Strategy<Value = Request> {
+    let weight = || prop_oneof![Just(0.0f32), 0.0f32..1.0];
+    (0.05f64..0.9, (weight(), weight(), weight()), any::<[bool; 3]>(), 5usize..60).prop_map(
+        |(ratio, (normals, uvs, colors), [cross_seams, keep_seams, grouped], flagged_every)| Request {
+            ratio,
+            weights: AttributeWeights { normals, uvs, colors },
+            cross_seams,
+            keep_seams,
+            grouped,
+            flagged_every,
+        },
+    )
+}
+
+/// A stone whose vertices along a cut are there twice, with attributes of all kinds.
+fn stone() -> Mesh {
+    let plain = shapes::bumpy_sphere(12, 1);
+    let mut positions = plain.positions().to_vec();
+    let mut triangles = plain.triangles().to_vec();
+    let count = positions.len() as u32;
+    positions.extend_from_within(..);
+    for triangle in &mut triangles {
+        if triangle.iter().any(|&vertex| plain.positions()[vertex as usize][0] > 0.0) {
+            *triangle = triangle.map(|vertex| vertex + count);
+        }
+    }
+    let attributes = Attributes {
+        normals: Some(positions.clone()),
+        uvs: Some(positions.iter().map(|&[x, y, _]| [x, y]).collect()),
+        colors: Some((0..positions.len()).map(|vertex| [(vertex % 251) as u8, 100, 7, 255]).collect()),
+    };
+    Mesh::with_attributes(positions, triangles, attributes).expect("it is a mesh")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn simplified_indices_are_those_of_rust(request in requests()) {
+        let mesh = stone();
+        let expected =
+            simplify(&mesh, &request.in_rust(&mesh), &mut Monitor::silent()).expect("the options are good");
+        let sources = expected.sources.expect("they were asked for");
+        let expected_indices: Vec<u32> =
+            expected.mesh.triangles().as_flattened().iter().map(|&vertex| sources[vertex as usize]).collect();
+
+        let (groups, flags) = (request.groups(&mesh), request.flags(&mesh));
+        let mut result_groups = vec![u32::MAX; mesh.triangles().len()];
+        let mut options = request.in_c(groups.as_deref(), &flags);
+        if request.grouped {
+            options.result_groups = result_groups.as_mut_ptr();
+        }
+        let buffers = c_calls::buffers(&mesh);
+        let mut indices = vec![u32::MAX; buffers.index_count];
+        let mut count = 0;
+        let mut report = c_calls::report();
+        // SAFETY: the pointers point to what the call's comment says.
+        succeeded(unsafe {
+            decimesh_simplify_indices(
+                indices.as_mut_ptr().cast(), &buffers, &options, &mut count, &mut report,
+            )
+        });
+        indices.truncate(count);
+        prop_assert_eq!(indices, expected_indices);
+        prop_assert_eq!(report.error.to_bits(), expected.error.to_bits());
+        prop_assert_eq!(report.attribute_error.to_bits(), expected.attribute_error.to_bits());
+        prop_assert_eq!(report.locked_vertices, expected.locked as u64);
+        if request.grouped {
+            result_groups.truncate(count / 3);
+            prop_assert_eq!(Some(result_groups), expected.groups);
+        }
+    }
+
+    #[test]
+    fn levels_of_all_kinds_are_those_of_rust(request in requests()) {
+        let mesh = stone();
+        let values = [request.ratio, request.ratio / 2.0, request.ratio / 8.0];
+        let targets = values.map(Target::Ratio);
+        let rust = request.in_rust(&mesh);
+        let quiet = &mut Monitor::silent();
+        let chain = build_levels(&mesh, &targets, &rust, quiet).expect("the options are good");
+        let nested = NestedLevels::build(&mesh, &targets, &rust, quiet).expect("the options are good");
+        let progressive = Progressive::build(&mesh, &targets, &rust, quiet).expect("the options are good");
+
+        let (groups, flags) = (request.groups(&mesh), request.flags(&mesh));
+        let options = request.in_c(groups.as_deref(), &flags);
+        let buffers = c_calls::buffers(&mesh);
+        let mut indices = vec![u32::MAX; buffers.index_count];
+        let room = indices.len();
+        let destination = indices.as_mut_ptr();
+        // SAFETY: the pointers point to what the calls' comments say, and each handle is destroyed last.
+        unsafe {
+            let mut own = ptr::null_mut();
+            succeeded(decimesh_mesh_from_buffers(&buffers, &mut own));
+
+            let mut levels = ptr::null_mut();
+            succeeded(decimesh_levels_build(own, &options, values.as_ptr(), values.len(), &mut levels));
+            for (level, expected) in chain.iter().enumerate() {
+                let mut found = ptr::null();
+                succeeded(decimesh_levels_mesh(levels, level, &mut found));
+                let count = 3 * decimesh_mesh_triangle_count(found);
+                let found = std::slice::from_raw_parts(decimesh_mesh_indices(found), count);
+                prop_assert_eq!(found, expected.mesh.triangles().as_flattened());
+            }
+            decimesh_levels_destroy(levels);
+
+            let mut handle = ptr::null_mut();
+            succeeded(decimesh_nested_build(own, &options, values.as_ptr(), values.len(), &mut handle));
+            let order = std::slice::from_raw_parts(decimesh_nested_order(handle), buffers.vertex_count);
+            prop_assert_eq!(order, nested.order());
+            prop_assert_eq!(decimesh_nested_count(handle), nested.levels().len());
+            for level in 0..nested.levels().len() {
+                succeeded(decimesh_nested_copy_indices(
+                    handle, level, DECIMESH_INDEX_U32, destination.cast(), room,
+                ));
+                let expected = nested.triangles(level).as_flattened();
+                prop_assert_eq!(std::slice::from_raw_parts(destination, expected.len()), expected);
+                let mut groups = ptr::null();
+                succeeded(decimesh_nested_groups(handle, level, &mut groups));
+                prop_assert_eq!(groups.is_null(), level == 0 || !request.grouped);
+                if let Some(expected) = nested.groups(level) {
+                    prop_assert_eq!(expected.len(), nested.triangles(level).len());
+                    prop_assert_eq!(std::slice::from_raw_parts(groups, expected.len()), expected);
+                }
+            }
+            decimesh_nested_destroy(handle);
+
+            let mut handle = ptr::null_mut();
+            succeeded(decimesh_progressive_build(own, &options, values.as_ptr(), values.len(), &mut handle));
+            prop_assert_eq!(decimesh_progressive_steps(handle), progressive.steps());
+            for step in [0, progressive.steps() / 2, progressive.steps()] {
+                succeeded(decimesh_progressive_copy_indices(
+                    handle, step, DECIMESH_INDEX_U32, destination.cast(), room,
+                ));
+                let triangles = progressive.triangles_at(step);
+                let expected = triangles.as_flattened();
+                prop_assert_eq!(std::slice::from_raw_parts(destination, expected.len()), expected);
+            }
+            decimesh_progressive_destroy(handle);
+            decimesh_mesh_destroy(own);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! The memory that calls of the C ABI take is what their comments say.
+
+#![cfg(feature = "capi")]
+
+use std::alloc::System;
+use std::ptr;
+
+use decimesh::capi::*;
+use decimesh::mesh::{Attributes, Mesh, shapes};
+use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
+
+mod c_calls;
+use c_calls::succeeded;
+
+#[global_allocator]
+static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
+
+/// What `call` takes at its peak, for each of so many `triangles`: at most `said` bytes, and not far less.
+fn check(call_name: &str, said: f64, triangles: usize, call: impl FnOnce() -> decimesh_status) {
+    ALLOCATOR.reset_peak_memory();
+    succeeded(call());
+    let taken = ALLOCATOR.get_peak_memory() as f64 / triangles as f64;
+    println!("{call_name}: {taken:.1} bytes a triangle");
+    assert!(
+        taken <= said && taken >= 0.85 * said,
+        "{call_name}: {taken:.1} bytes a triangle, not about {said}"
+    );
+}
+
+/// One test, as all count in one place.
+#[test]
+fn calls_take_as_much_memory_as_they_say() {
+    let stone = shapes::bumpy_sphere(200, 1);
+    let triangles = stone.triangles().len();
+    let mut options = c_calls::options();
+    options.target_value = 0.25;
+    let mut indices = stone.triangles().as_flattened().to_vec();
+    let destination = indices.as_mut_ptr();
+    let mut count = 0;
+
+    let buffers = c_calls::buffers(&stone);
+    check("indices", 60.0, triangles, || {
+        // SAFETY: the pointers point to what the call's comment says; so they do below.
+        unsafe {
+            decimesh_simplify_indices(destination.cast(), &buffers, &options, &mut count, ptr::null_mut())
+        }
+    });
+    let normals = Attributes { normals: Some(stone.positions().to_vec()), ..Attributes::default() };
+    let dressed = Mesh::with_attributes(stone.positions().to_vec(), stone.triangles().to_vec(), normals)
+        .expect("positions are as good as normals");
+    let dressed = c_calls::buffers(&dressed);
+    options.normal_weight = 0.5;
+    check("indices with normals", 75.0, triangles, || {
+        // SAFETY: as above.
+        unsafe {
+            decimesh_simplify_indices(destination.cast(), &dressed, &options, &mut count, ptr::null_mut())
+        }
+    });
+
+    let mut mesh = ptr::null_mut();
+    // SAFETY: as above.
+    succeeded(unsafe { decimesh_mesh_from_buffers(&buffers, &mut mesh) });
+    let values = [0.5, 0.25, 0.125];
+    let mut nested = ptr::null_mut();
+    check("nested", 70.0, triangles, || {
+        // SAFETY: as above.
+        unsafe { decimesh_nested_build(mesh, &options, values.as_ptr(), values.len(), &mut nested) }
+    });
+    let mut progressive = ptr::null_mut();
+    check("progressive", 130.0, triangles, || {
+        // SAFETY: as above.
+        unsafe { decimesh_progressive_build(mesh, &options, values.as_ptr(), values.len(), &mut progressive) }
+    });
+    // SAFETY: as above, and none is used any more.
+    unsafe {
+        decimesh_progressive_destroy(progressive);
+        decimesh_nested_destroy(nested);
+        decimesh_mesh_destroy(mesh);
+    }
+}
