@@ -109,7 +109,7 @@ fn stone() -> Mesh {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn simplified_indices_are_those_of_rust(request in requests()) {

@@ -37,7 +37,7 @@ const SHARE_NEAR_HALF_EDGE: f32 = 0.5;
 const AIM: f32 = 0.8;
 /// Costs looked at for a threshold: of few vertices one in so many, but not fewer than these; and where a smaller share of the vertices is to go than
 /// [`SMALL`], so that the threshold is as sharp there.
-const SPARSE: usize = 12;
+const SPARSE: usize = 24;
 const FEW_SAMPLES: usize = 512;
 const SAMPLES: usize = 4096;
 const MANY_SAMPLES: usize = 16384;

@@ -20,8 +20,10 @@ use std::ops::Range;
 
 /// The finish begins when the surface is this many times larger than the goal...
 const FINISH_RATIO: f32 = 1.5;
-/// ...or this many times, where vertices stay: a pass does well there, and takes a fifth of the time...
+/// ...or this many times where vertices stay, as a pass does well there, and takes a fifth of the time: unless
+/// no more than one vertex in so many is left, which makes that time a small part of the whole...
 const FINISH_RATIO_HALF_EDGE: f32 = 1.15;
+const FINISH_SHARE: usize = 16;
 /// ...and has at most so many vertices: its heap takes ten times as long as a pass.
 const FINISH_VERTICES: usize = 12_000;
 /// So few vertices are finished however far the goal is.
@@ -179,7 +181,12 @@ impl<'a> Run<'a> {
     /// vertices are left that its order would lose corners.
     fn is_near(&self, goal: Goal) -> bool {
         let vertices = self.counts.vertices;
-        let finish_ratio = if moves_no_vertex(self.options) { FINISH_RATIO_HALF_EDGE } else { FINISH_RATIO };
+        let is_small_part = vertices <= self.input.positions().len() / FINISH_SHARE;
+        let finish_ratio = if moves_no_vertex(self.options) && !is_small_part {
+            FINISH_RATIO_HALF_EDGE
+        } else {
+            FINISH_RATIO
+        };
         let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= finish_ratio);
         let finishes_early = self.options.selection == Selection::SampledThreshold;
         vertices <= FEW_VERTICES || finishes_early && near && vertices <= FINISH_VERTICES

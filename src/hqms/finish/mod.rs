@@ -181,13 +181,6 @@ impl<'a> Finish<'a> {
         Ok(())
     }
 
-    /// Whether vertices are brought up to date only when they come up: where no vertex moves, costs around a
-    /// collapse mostly rise. What gives up the topology has to know at once which vertices are left without
-    /// a face.
-    fn is_lazy(&self) -> bool {
-        self.rules.half_edge && !self.rules.any_topology
-    }
-
     /// What decides where vertices go. What gives up the topology gives up seams as well, but does not
     /// open them.
     fn terms(&self) -> Terms<'_> {
@@ -401,14 +394,9 @@ impl<'a> Finish<'a> {
         self.scratch = scratch;
 
         self.set(ends[0], IMPOSSIBLE);
-        if self.is_lazy() {
-            for &vertex in &around {
-                self.stale[vertex as usize] = true;
-                // What had nowhere to go may have now.
-                if self.candidates[vertex as usize] == IMPOSSIBLE && !self.is_locked(vertex) {
-                    self.set(vertex, FREE);
-                }
-            }
+        if self.rules.half_edge && !self.rules.any_topology {
+            // No vertex is left without a face, and nothing else is to be known before it comes up.
+            self.update(&around);
             self.scratch.neighbours[0] = around;
             return Outcome::Done;
         }
@@ -559,12 +547,18 @@ impl<'a> Finish<'a> {
         self.set(vertex, IMPOSSIBLE);
     }
 
-    /// Renews the candidates after the quadrics of `around` have changed: theirs, and those of the
+    /// Renews the candidates after the rings of `around` have changed: theirs, and those of the
     /// vertices beyond whose cheapest edge led here or should now. Where vertices stay, nothing beyond has
-    /// changed.
+    /// changed, and costs mostly rise: they are renewed when they come up.
     fn update(&mut self, around: &[u32]) {
         if self.rules.half_edge {
-            around.iter().for_each(|&vertex| self.choose(vertex, None));
+            for &vertex in around {
+                self.stale[vertex as usize] = true;
+                // What had nowhere to go may have now.
+                if self.candidates[vertex as usize] == IMPOSSIBLE && !self.is_locked(vertex) {
+                    self.set(vertex, FREE);
+                }
+            }
             return;
         }
         self.stamp += 1;

@@ -23,9 +23,19 @@ impl Progressive {
     /// n log n time in the vertices, linear in the triangles and in the corners that change; about 65 bytes
     /// of memory a triangle of a closed mesh besides the result.
     pub fn new(mesh: &Mesh, collapses: &[HalfEdge]) -> Result<Self, ProgressiveError> {
+        Self::with_ends(mesh, collapses, &[])
+    }
+
+    /// [`new`](Self::new), where a step ends after so many collapses, in ascending order: two that only happen
+    /// to be at one place may be of two levels.
+    pub(super) fn with_ends(
+        mesh: &Mesh,
+        collapses: &[HalfEdge],
+        ends: &[usize],
+    ) -> Result<Self, ProgressiveError> {
         check(mesh, collapses)?;
         let places = first_equal(mesh.positions());
-        let steps = steps(&places, collapses);
+        let steps = steps(&places, collapses, ends);
         let mut coarsening = Coarsening::new(mesh, places, collapses.len());
         for (step, range) in (0..).zip(&steps) {
             coarsening.collapse(step, &collapses[range.clone()]);
@@ -53,17 +63,22 @@ fn check(mesh: &Mesh, collapses: &[HalfEdge]) -> Result<(), ProgressiveError> {
     Ok(())
 }
 
-/// The collapses of each step.
-fn steps(places: &[u32], collapses: &[HalfEdge]) -> Vec<Range<usize>> {
+/// The collapses of each step, of which some end where they must.
+fn steps(places: &[u32], collapses: &[HalfEdge], ends: &[usize]) -> Vec<Range<usize>> {
     let place = |collapse: &HalfEdge| places[collapse.source as usize];
-    let mut end = 0;
-    let chunks = collapses.chunk_by(|a, b| place(a) == place(b));
-    chunks
-        .map(|chunk| {
-            end += chunk.len();
-            end - chunk.len()..end
-        })
-        .collect()
+    let mut steps: Vec<Range<usize>> = Vec::new();
+    for (index, collapse) in collapses.iter().enumerate() {
+        match steps.last_mut() {
+            Some(step)
+                if place(&collapses[step.start]) == place(collapse)
+                    && ends.binary_search(&index).is_err() =>
+            {
+                step.end = index + 1;
+            }
+            _ => steps.push(index..index + 1),
+        }
+    }
+    steps
 }
 
 /// A mesh that loses vertices.

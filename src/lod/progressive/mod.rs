@@ -190,7 +190,9 @@ impl Progressive {
         if kept.len() < levels.len() && !levels[kept.len()].topology_changed {
             return Err(ProgressiveError::NotTracked);
         }
-        let mut progressive = Self::new(mesh, kept.last().map_or(&[], |(collapses, _)| collapses))?;
+        let ends: Vec<usize> = kept.iter().map(|(collapses, _)| collapses.len()).collect();
+        let collapses = kept.last().map_or(&[][..], |(collapses, _)| collapses);
+        let mut progressive = Self::with_ends(mesh, collapses, &ends)?;
         let mut largest = 0.0f32;
         let marks = kept.iter().map(|(collapses, error)| {
             largest = largest.max(*error);

@@ -10,7 +10,7 @@ use decimesh::{
 };
 
 use super::{WEIGHTS, cell, cut, existing, named, run};
-use crate::meshes::{attributed, moved, shuffled};
+use crate::meshes::{attributed, joined, moved, shuffled, tetrahedron};
 use crate::places::{Places, replay};
 
 fn with(mesh: &Mesh, attributes: Attributes) -> Mesh {
@@ -383,4 +383,18 @@ fn large_and_small_numbers() {
             }
         }
     }
+}
+
+/// A sheet whose border lies on an edge of a small solid: this would be the first to vanish, and leave a gap.
+#[test]
+fn what_lies_on_an_edge_keeps_it_when_the_topology_is_given_up() {
+    let sheet = moved(&shapes::plane(6), |x| x.map(|x| 6.0 * x));
+    let mesh = joined(&[sheet, tetrahedron([0.0, 0.0, 0.0], 1.0)]);
+    let result = run(&mesh, &existing(Target::Triangles(3)));
+    let at = |vertex: u32| mesh.positions()[vertex as usize];
+    let on_edge = |triangle: &&[u32; 3]| {
+        let corners = triangle.map(at);
+        corners.contains(&[0.0; 3]) && corners.contains(&[1.0, 0.0, 0.0])
+    };
+    assert!(named(&result).iter().filter(on_edge).count() > 1);
 }
