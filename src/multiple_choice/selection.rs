@@ -234,8 +234,7 @@ mod tests {
                 }
             }
             let mut lazy = begin(Selection::LazyHeap);
-            loop {
-                let Some(HalfEdge { source, .. }) = step(&mut lazy) else { break };
+            while let Some(HalfEdge { source, .. }) = step(&mut lazy) {
                 let State { choices, flags, .. } = &lazy.state;
                 let taken = choices[source as usize].cost;
                 let mut left = choices.iter().zip(flags).filter(|(_, flags)| **flags & flag::DEAD == 0);
