@@ -1,9 +1,9 @@
 //! The engines that the command can simplify with.
 
 use decimesh::deviation::{Sampling, deviation};
-use decimesh::mesh::{Violation, verify};
+use decimesh::mesh::verify;
 use decimesh::multiple_choice::{Cost, Decimation, Selection};
-use decimesh::{Mesh, Monitor, Options, Placement, Simplified, StoppedBy, Target, Topology};
+use decimesh::{Mesh, Monitor, Options, Simplified, StoppedBy, Target, Topology};
 
 use crate::arguments::{EngineArguments, EngineName};
 use crate::failure::Failure;
@@ -65,6 +65,7 @@ fn multiple_choice(
         origins: None,
         sources: Some(sources),
         groups: None,
+        surface_vertices: None,
         collapses: None,
         passes: 0,
     })
@@ -74,34 +75,26 @@ fn multiple_choice(
 /// admitted. Where vertices stay, it is the surface that keeps it, on which the vertices of a seam are one.
 pub(crate) fn check(original: &Mesh, result: &Simplified, options: &Options) -> Result<(), Failure> {
     let topology_kept = options.topology == Topology::Keep || !result.topology_changed;
-    let sources = result.sources.as_ref();
-    let verified = match sources.filter(|_| options.placement == Placement::Existing && options.keep_seams) {
-        Some(sources) => verify_surface(original, &result.mesh, sources, topology_kept)?,
+    let verified = match &result.surface_vertices {
+        Some(vertices) => {
+            let before = on_surface(original, &original.surface_vertices())?;
+            verify(&before, &on_surface(&result.mesh, vertices)?, topology_kept)
+        }
         None => verify(original, &result.mesh, topology_kept),
     };
     verified.map_err(Failure::Verification)
 }
 
-/// [`verify`] with the vertices of both meshes named as those of the original's surface.
-fn verify_surface(
-    original: &Mesh,
-    result: &Mesh,
-    sources: &[u32],
-    topology_kept: bool,
-) -> Result<Result<(), Violation>, Failure> {
-    let vertices = original.surface_vertices();
-    // Triangles with two corners at one position are left out by the engine.
+/// The mesh with `vertices` in place of its own. Triangles with two corners at one position are left out, as
+/// the engine does.
+fn on_surface(mesh: &Mesh, vertices: &[u32]) -> Result<Mesh, Failure> {
     let is_face = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|vertex| original.positions()[vertex as usize]);
+        let [a, b, c] = triangle.map(|vertex| mesh.positions()[vertex as usize]);
         a != b && b != c && c != a
     };
-    let on_surface = |triangle: [u32; 3]| triangle.map(|vertex| vertices[vertex as usize]);
-    let before: Vec<_> = original.triangles().iter().copied().filter(is_face).map(on_surface).collect();
-    let named = result.triangles().iter().map(|triangle| triangle.map(|vertex| sources[vertex as usize]));
-    let after: Vec<_> = named.map(on_surface).collect();
-    let (before, _) = original.of_triangles(&before).map_err(unexpected)?;
-    let (after, _) = original.of_triangles(&after).map_err(unexpected)?;
-    Ok(verify(&before, &after, topology_kept))
+    let named = |triangle: [u32; 3]| triangle.map(|vertex| vertices[vertex as usize]);
+    let triangles: Vec<_> = mesh.triangles().iter().copied().filter(is_face).map(named).collect();
+    Ok(mesh.of_triangles(&triangles).map_err(unexpected)?.0)
 }
 
 fn unexpected(error: impl std::fmt::Display) -> Failure {
@@ -114,7 +107,7 @@ mod tests {
 
     fn simplified(mesh: Mesh, topology_changed: bool) -> Simplified {
         let (stopped_by, error, attribute_error, locked, passes) = (StoppedBy::Target, 0.0, 0.0, 0, 1);
-        let (origins, sources, groups, collapses) = (None, None, None, None);
+        let (origins, sources, groups, surface_vertices, collapses) = (None, None, None, None, None);
         Simplified {
             mesh,
             stopped_by,
@@ -125,6 +118,7 @@ mod tests {
             origins,
             sources,
             groups,
+            surface_vertices,
             collapses,
             passes,
         }

@@ -116,6 +116,11 @@ impl<'a> Tile<'a> {
         self.first..self.first + self.columns.points.len() as u32
     }
 
+    /// Whether there are vertices of several wedges.
+    pub(crate) fn has_wedges(&self) -> bool {
+        self.shared.terms.wedges.are_several()
+    }
+
     pub(crate) fn flags(&self, vertex: u32) -> u8 {
         self.columns.flags[(vertex - self.first) as usize]
     }

@@ -57,6 +57,14 @@ impl Goal {
         }
     }
 
+    /// The most, in the unit of the goal, that a collapse has taken away which is known to have `removed` so
+    /// much. Where vertices have several wedges (`has_wedges`), two more may be gone with each face: those at
+    /// its corner away from the edge, and at the edge's target, if no other face has them.
+    pub(crate) fn measure_at_most(self, removed: Counts, has_wedges: bool) -> usize {
+        let unseen = if has_wedges { 2 * removed.faces } else { 0 };
+        self.measure(Counts { vertices: removed.vertices + unseen, ..removed })
+    }
+
     /// The most that one collapse inside the mesh takes away.
     pub(crate) fn step(self) -> usize {
         self.measure(Counts { faces: 2, vertices: 1 })

@@ -182,6 +182,9 @@ pub struct Simplified {
     pub sources: Option<Vec<u32>>,
     /// The group of each triangle, if groups were given.
     pub groups: Option<Vec<u32>>,
+    /// For each output vertex the first that is the same vertex of the surface, of which there are several along
+    /// seams: see [`Mesh::surface_vertices`]. None where vertices move, or the input has no such vertices.
+    pub surface_vertices: Option<Vec<u32>>,
     /// What was collapsed, in an order in which it can be done again: at each, all corners of triangles that
     /// are the source become the target, and the triangles vanish that then have two corners at one place.
     /// From the input's triangles, those with two corners at one place left out, this leads to the

@@ -35,13 +35,15 @@ const SHARE_NEAR: f32 = 0.3;
 const SHARE_NEAR_HALF_EDGE: f32 = 0.5;
 /// The share of what is left to remove that a pass aims at, so that the last one is a small one.
 const AIM: f32 = 0.8;
-/// Costs looked at for a threshold: of few vertices one in so many, but not fewer than these; and where a smaller share of the vertices is to go than
-/// [`SMALL`], so that the threshold is as sharp there.
-const SPARSE: usize = 24;
-const FEW_SAMPLES: usize = 512;
+/// Costs looked at for a threshold, and where a smaller share of the vertices is to go than [`SMALL`], so
+/// that the threshold is as sharp there.
 const SAMPLES: usize = 4096;
 const MANY_SAMPLES: usize = 16384;
 const SMALL: f32 = 0.1;
+/// Where vertices stay a rough threshold does: of few vertices one in so many is looked at, but not fewer than
+/// these.
+const SPARSE: usize = 24;
+const FEW_SAMPLES: usize = 512;
 /// The most by which a threshold rises after a productive pass, and the share of the vertices that
 /// such a pass removes. On scans costs rise by 4 to 8 a pass.
 const RISE: f32 = 16.0;
@@ -134,8 +136,12 @@ impl Threshold {
 /// never executed.
 fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -> Vec<(u32, u32)> {
     let vertices = surface.points.len();
-    let count =
-        (vertices / SPARSE).clamp(FEW_SAMPLES.min(vertices), if many { MANY_SAMPLES } else { SAMPLES });
+    let most = if many { MANY_SAMPLES } else { SAMPLES };
+    let count = if rules.half_edge {
+        (vertices / SPARSE).clamp(FEW_SAMPLES.min(vertices), most)
+    } else {
+        vertices.min(most)
+    };
     let tile = &surface.whole();
     let blocks: Vec<_> = (0..count).step_by(1024).map(|first| first..(first + 1024).min(count)).collect();
     let of_blocks = workers.map(blocks, |block| {
@@ -215,9 +221,10 @@ fn budgets(tiles: &[Tile], samples: &[(u32, u32)], threshold: u32, goal: Goal, e
 fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rules) -> Counts {
     let mut scratch = Scratch::default();
     let mut removed = Counts::default();
+    let mut spent = 0;
     let limit = as_cost(threshold);
     for vertex in tile.vertices() {
-        if goal.measure(removed) + goal.step() > budget {
+        if spent + goal.step() > budget {
             break;
         }
         let Some((cost, neighbour)) = cost(tile, vertex, 0, limit, rules, &mut scratch) else { continue };
@@ -235,6 +242,7 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
             && let Some(counts) = tile.collapse(target, rules, &mut scratch)
         {
             removed.add(counts);
+            spent += goal.measure_at_most(counts, tile.has_wedges());
         }
     }
     removed
@@ -252,9 +260,12 @@ pub(crate) fn ranked_pass(
     let wanted = goal.collapses(counts);
     // Most fail because a neighbour was used before.
     let enough = 6 * wanted + 64;
-    let samples = sample(surface, true, rules, workers);
     let quantile = 1.5 * enough as f32 / surface.points.len() as f32;
-    let limit = if quantile < 1.0 { as_cost(threshold(&samples, quantile)) } else { f32::INFINITY };
+    let limit = if rules.half_edge && quantile < 1.0 {
+        as_cost(threshold(&sample(surface, true, rules, workers), quantile))
+    } else {
+        f32::INFINITY
+    };
     let mut candidates = Vec::new();
     {
         let tile = &surface.whole();
@@ -278,14 +289,16 @@ pub(crate) fn ranked_pass(
     let mut tile = surface.whole();
     let mut scratch = Scratch::default();
     let mut removed = Counts::default();
+    let mut spent = 0;
     for (_, vertex) in candidates {
-        if goal.measure(removed) >= goal.excess(counts) {
+        if spent >= goal.excess(counts) {
             break;
         }
         if let Some((_, neighbour)) = cost(&tile, vertex, 0, f32::INFINITY, rules, &mut scratch)
             && let Some(counts) = tile.collapse(neighbour, rules, &mut scratch)
         {
             removed.add(counts);
+            spent += goal.measure_at_most(counts, tile.has_wedges());
         }
     }
     let collapses = tile.into_collapses();

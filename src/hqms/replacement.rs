@@ -41,6 +41,8 @@ pub(crate) fn pass(
     let mut scratch = Scratch::default();
     let mut heap: BinaryHeap<Record> = BinaryHeap::with_capacity(records.min(tile.vertices().len()) + 1);
     let mut removed = Counts::default();
+    let has_wedges = tile.has_wedges();
+    let mut spent = 0;
     let excess = goal.excess(counts);
     for vertex in tile.vertices() {
         if vertex % BATCH == 0 {
@@ -51,16 +53,20 @@ pub(crate) fn pass(
         if heap.len() > records
             && let Some(record) = heap.pop()
         {
-            execute(&mut tile, record, rules, &mut scratch, &mut removed);
+            let counts = execute(&mut tile, record, rules, &mut scratch);
+            removed.add(counts);
+            spent += goal.measure_at_most(counts, has_wedges);
         }
-        if goal.measure(removed) >= excess {
+        if spent >= excess {
             break;
         }
     }
-    while goal.measure(removed) < excess
+    while spent < excess
         && let Some(record) = heap.pop()
     {
-        execute(&mut tile, record, rules, &mut scratch, &mut removed);
+        let counts = execute(&mut tile, record, rules, &mut scratch);
+        removed.add(counts);
+        spent += goal.measure_at_most(counts, has_wedges);
     }
     let collapses = tile.into_collapses();
     surface.remember(collapses);
@@ -91,14 +97,11 @@ fn contraction(tile: &Tile, vertex: u32, rules: &Rules, scratch: &mut Scratch) -
     Some(Reverse((cost.to_bits(), vertex, neighbour)))
 }
 
-/// Executes a record, unless an earlier one has modified one of its vertices.
-fn execute(tile: &mut Tile, record: Record, rules: &Rules, scratch: &mut Scratch, removed: &mut Counts) {
+/// Executes a record, unless an earlier one has modified one of its vertices: what that removes.
+fn execute(tile: &mut Tile, record: Record, rules: &Rules, scratch: &mut Scratch) -> Counts {
     let Reverse((_, source, target)) = record;
-    if is_unmodified(tile, source)
+    let can = is_unmodified(tile, source)
         && is_unmodified(tile, target)
-        && tile.gather(source, &mut scratch.source)
-        && let Some(counts) = tile.collapse(target, rules, scratch)
-    {
-        removed.add(counts);
-    }
+        && tile.gather(source, &mut scratch.source);
+    if can { tile.collapse(target, rules, scratch).unwrap_or_default() } else { Counts::default() }
 }

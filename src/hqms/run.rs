@@ -257,7 +257,7 @@ impl<'a> Run<'a> {
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
         let unmoved = moves_no_vertex(self.options).then_some(self.input);
-        let Remains { mesh, origins, sources, groups } = self.surface.to_mesh(unmoved)?;
+        let Remains { mesh, origins, sources, groups, surface_vertices } = self.surface.to_mesh(unmoved)?;
         let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.
         let error = (largest / self.surface.scale()).min(f32::MAX);
@@ -277,6 +277,7 @@ impl<'a> Run<'a> {
             sources,
             // No triangle is left to have one where groups were given and none are found.
             groups: groups.or_else(|| self.options.groups.as_ref().map(|_| Vec::new())),
+            surface_vertices,
             collapses,
             passes,
         })

@@ -70,14 +70,20 @@ fn check_surface(input: &Mesh, options: &Options, places: &Places, result: &Simp
         let Some(sources) = &result.sources else { panic!("no sources") };
         let place = |vertex: u32| places.of[sources[vertex as usize] as usize];
         verify(&places.surface(input), &places::merged(&result.mesh, place), true)
-    } else if places.most_removed() == 1 && options.groups.is_none() {
-        verify(input, &result.mesh, false)
+    } else if let Some(vertices) = &result.surface_vertices {
+        let vertex = |vertex: u32| vertices[vertex as usize];
+        verify(&places.surface(input), &places::merged(&result.mesh, vertex), false)
     } else {
-        // How the surface was parted is not to be seen: that its edges are sound is, whatever belongs together.
-        let (before, after) = (places.surface(input).topology(), result.mesh.topology());
-        assert!(after.non_manifold_edges <= before.non_manifold_edges, "new edges of more than two faces");
-        Ok(())
+        verify(&places.surface(input), &result.mesh, false)
     };
+    if let (Some(vertices), Some(sources), true) = (&result.surface_vertices, &result.sources, topology_kept)
+    {
+        let place = |vertex: u32| places.of[sources[vertex as usize] as usize];
+        let mut first = BTreeMap::new();
+        for (&vertex, name) in vertices.iter().zip(0..) {
+            assert_eq!(vertex, *first.entry(place(name)).or_insert(name), "not the first at its place");
+        }
+    }
     if let Err(violation) = violation {
         panic!("{violation}");
     }

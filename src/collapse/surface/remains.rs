@@ -16,6 +16,8 @@ pub(crate) struct Remains {
     pub(crate) sources: Option<Vec<u32>>,
     /// The groups of the triangles, if there are groups.
     pub(crate) groups: Option<Vec<u32>>,
+    /// For each vertex the first that is the same on the surface, if there may be several.
+    pub(crate) surface_vertices: Option<Vec<u32>>,
 }
 
 impl Surface {
@@ -33,14 +35,14 @@ impl Surface {
             |origin: &u32| last_merged(&self.merged, *origin).map_or(NONE, |vertex| map[vertex as usize]);
         let origins = self.origins.as_ref().map(|origins| origins.iter().map(into).collect());
         let mesh = Mesh::with_attributes(self.positions(&used), triangles, self.attributes.select(&used))?;
-        Ok(Remains { mesh, origins, sources, groups: None })
+        Ok(Remains { mesh, origins, sources, groups: None, surface_vertices: None })
     }
 
     /// The surface as a mesh of vertices of `input`, of which each of its own is one of `sources`.
     fn to_mesh_of(&self, input: &Mesh, sources: &[u32]) -> Result<Remains, MeshError> {
         let count = input.positions().len();
         let wedges = || self.faces.iter().zip(&self.wedges).filter(|(face, _)| is_alive(face));
-        let mut groups = None;
+        let (mut groups, mut surface_vertices) = (None, None);
         let (triangles, used) = if self.wedges.is_empty() {
             let alive = || self.faces.iter().filter(|face| is_alive(face)).map(corners);
             let (triangles, _, used) = renumbered(alive, self.points.len());
@@ -52,18 +54,20 @@ impl Surface {
             }
             let alive =
                 || wedges().map(|(_, wedges)| corners(wedges).map(|wedge| self.wedge_names.vertex(wedge)));
-            let (triangles, _, used) = renumbered(alive, count);
-            self.parted(triangles, used)
+            let (mut triangles, _, mut used) = renumbered(alive, count);
+            surface_vertices = Some(self.part(&mut triangles, &mut used));
+            (triangles, used)
         };
         let origins = self.collapses.as_ref().map(|collapses| origins(collapses, &used, count));
         let (positions, attributes) = (select(input.positions(), &used), input.attributes().select(&used));
         let mesh = Mesh::with_attributes(positions, triangles, attributes)?;
-        Ok(Remains { mesh, origins, sources: Some(used), groups })
+        Ok(Remains { mesh, origins, sources: Some(used), groups, surface_vertices })
     }
 
     /// Gives each vertex of the surface names of its own: where the surface was parted, several have the same.
-    /// `triangles` are those of the living faces, and name vertices that are `used`.
-    fn parted(&self, mut triangles: Vec<[u32; 3]>, mut used: Vec<u32>) -> (Vec<[u32; 3]>, Vec<u32>) {
+    /// `triangles` are those of the living faces, and name vertices that are `used`. For each of these then
+    /// the first that is the same on the surface.
+    fn part(&self, triangles: &mut [[u32; 3]], used: &mut Vec<u32>) -> Vec<u32> {
         let mut owners = vec![NONE; used.len()];
         let mut further: HashMap<(u32, u32), u32> = HashMap::new();
         let faces = self.faces.iter().filter(|face| is_alive(face)).map(corners);
@@ -75,11 +79,20 @@ impl Surface {
             } else if *owner != vertex {
                 *name = *further.entry((*name, vertex)).or_insert_with(|| {
                     used.push(used[*name as usize]);
+                    owners.push(vertex);
                     used.len() as u32 - 1
                 });
             }
         }
-        (triangles, used)
+        let mut first = vec![NONE; self.points.len()];
+        let named = |(vertex, owner): (u32, u32)| {
+            let first = &mut first[owner as usize];
+            if *first == NONE {
+                *first = vertex;
+            }
+            *first
+        };
+        (0..).zip(owners).map(named).collect()
     }
 
     /// The positions of `vertices`, in the scale of the input.
