@@ -4,7 +4,7 @@
 //! along which wedges meet, and of the attributes, where these have weights.
 
 use super::attributes::{AttributeQuadric, AttributeRows};
-use super::ring::Ring;
+use super::ring::{Ring, key};
 use super::surface::flag;
 use super::wedges::{Moves, RingWedges, Wedges};
 use glam::Vec3A;
@@ -45,11 +45,6 @@ struct Neighbour {
 #[inline(always)]
 pub(super) fn factor(flags: u8) -> f32 {
     if flags & flag::PRIORITY != 0 { PRIORITY } else { 1.0 }
-}
-
-/// Costs are not negative, so their bits order as they do, and one integer compares both.
-fn key(cost: f32, name: u32) -> u64 {
-    u64::from(cost.to_bits()) << 32 | u64::from(name)
 }
 
 impl Terms<'_> {

@@ -91,11 +91,7 @@ impl Ring {
         room: usize,
         fill: impl FnOnce(&mut Gathering) -> bool,
     ) -> bool {
-        let padded = room.next_multiple_of(LANES);
-        if self.next.len() < padded {
-            self.next.resize(padded, NONE);
-            self.previous.resize(padded, NONE);
-        }
+        let padded = self.make_room(room);
         if self.spokes.len() < padded {
             self.spokes.resize(padded, Spoke::default());
         }
@@ -107,12 +103,8 @@ impl Ring {
             sum: QuadricSum::default(),
         };
         let complete = fill(&mut gathering);
-        let Gathering { next, previous, count, sum, .. } = gathering;
-        for index in count..count.next_multiple_of(LANES) {
-            next[index] = NONE;
-            previous[index] = NONE;
-        }
-        self.count = count;
+        let Gathering { count, sum, .. } = gathering;
+        self.fill_up(count);
         self.vertex = vertex;
         self.boundary = boundary;
         self.quadric = sum.quadric();
@@ -132,22 +124,34 @@ impl Ring {
         room: usize,
         fill: impl FnOnce(&mut Naming),
     ) {
+        let padded = self.make_room(room);
+        let mut naming =
+            Naming { next: &mut self.next[..padded], previous: &mut self.previous[..padded], count: 0 };
+        fill(&mut naming);
+        let count = naming.count;
+        self.fill_up(count);
+        self.vertex = vertex;
+        self.boundary = boundary;
+    }
+
+    /// Sees to it that so many faces can be named, and the lanes filled up: how many that is.
+    #[inline(always)]
+    fn make_room(&mut self, room: usize) -> usize {
         let padded = room.next_multiple_of(LANES);
         if self.next.len() < padded {
             self.next.resize(padded, NONE);
             self.previous.resize(padded, NONE);
         }
-        let mut naming =
-            Naming { next: &mut self.next[..padded], previous: &mut self.previous[..padded], count: 0 };
-        fill(&mut naming);
-        let Naming { next, previous, count } = naming;
-        for index in count..count.next_multiple_of(LANES) {
-            next[index] = NONE;
-            previous[index] = NONE;
-        }
+        padded
+    }
+
+    /// Says that `count` faces are named, and fills up the lanes after them.
+    #[inline(always)]
+    fn fill_up(&mut self, count: usize) {
         self.count = count;
-        self.vertex = vertex;
-        self.boundary = boundary;
+        let rest = count..count.next_multiple_of(LANES);
+        self.next[rest.clone()].fill(NONE);
+        self.previous[rest].fill(NONE);
     }
 
     /// The shapes of the faces.
@@ -241,10 +245,9 @@ impl Ring {
     /// the cost there: `Q_i(v_j)` of section 3.3. Ties go to the smaller index.
     #[inline(always)]
     pub(crate) fn cheapest_neighbour(&self, eligible: impl Fn(u32) -> bool) -> Option<(f32, u32)> {
-        // Costs are not negative, so their bits order as they do, and one integer compares both.
         let mut best = u64::MAX;
         let mut consider = |neighbour: u32, edge: Vec3A| {
-            let key = u64::from(self.quadric.at(edge).to_bits()) << 32 | u64::from(neighbour);
+            let key = key(self.quadric.at(edge), neighbour);
             if eligible(neighbour) {
                 best = best.min(key);
             }
@@ -286,6 +289,13 @@ impl Ring {
         neighbours.sort_unstable();
         neighbours.dedup();
     }
+}
+
+/// Orders by cost, ties by name: costs are not negative, so their bits order as they do, and one integer
+/// compares both.
+#[inline(always)]
+pub(super) fn key(cost: f32, name: u32) -> u64 {
+    u64::from(cost.to_bits()) << 32 | u64::from(name)
 }
 
 /// How often `name` is among `names`, whose count is a multiple of [`LANES`].

@@ -166,8 +166,8 @@ pub(crate) type Distance<'a> = dyn Fn(u32, u32) -> f32 + 'a;
 
 impl Moves {
     /// Finds them for the vertex of a ring, whose `wedges` are given; `false` if a wedge, or a vertex of the
-    /// input that is several, has nowhere to go, or two places to go to. Given a distance, such a wedge goes to the wedge of the same group at the
-    /// collapsed edge that is nearest by it.
+    /// input that is several, has nowhere to go, or two places to go to. Given a distance, such a wedge goes
+    /// to the wedge of the same group at the collapsed edge that is nearest by it.
     pub(crate) fn find(
         &mut self,
         wedges: &RingWedges,

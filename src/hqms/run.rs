@@ -334,10 +334,10 @@ fn check(mesh: &Mesh, options: &Options) -> Result<(), SimplifyError> {
     }
     if options.track_collapses && !moves_no_vertex(options) {
         let message = "collapses can be tracked where vertices stay (Placement::Existing) only";
-        return Err(SimplifyError::InvalidOption(message.into()));
+        return invalid(message.into());
     }
     if options.selection == (Selection::ReplacementSelection { records: 0 }) {
-        return Err(SimplifyError::InvalidOption("a replacement-selection heap needs a record".into()));
+        return invalid("a replacement-selection heap needs a record".into());
     }
     Ok(())
 }

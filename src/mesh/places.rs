@@ -7,7 +7,7 @@
 
 use super::Mesh;
 use super::partition::Partition;
-use super::weld::first_equal;
+use super::weld::{are_shared, first_equal};
 
 /// The vertices of a mesh as vertices of its surface.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,16 +49,8 @@ struct Side {
 /// at a shared position.
 pub(crate) fn places(mesh: &Mesh) -> Option<Places> {
     let positions = first_equal(mesh.positions());
-    let mut shared = vec![false; positions.len()];
-    let mut any = false;
-    for (vertex, &first) in positions.iter().enumerate() {
-        if first as usize != vertex {
-            any = true;
-            shared[vertex] = true;
-            shared[first as usize] = true;
-        }
-    }
-    if !any {
+    let shared = are_shared(&positions);
+    if !shared.contains(&true) {
         return None;
     }
     let mut sides = sides(mesh, &positions, &shared);

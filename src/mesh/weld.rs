@@ -156,7 +156,12 @@ pub(crate) fn seams(mesh: &Mesh) -> Vec<u32> {
 
 /// The vertices that are not alone at their place.
 pub(crate) fn shared_places(mesh: &Mesh) -> Vec<u32> {
-    let first = first_equal(mesh.positions());
+    let shared = are_shared(&first_equal(mesh.positions()));
+    (0..).zip(shared).filter(|(_, shared)| *shared).map(|(vertex, _)| vertex).collect()
+}
+
+/// Whether each is not alone, given for each the first that is equal to it.
+pub(crate) fn are_shared(first: &[u32]) -> Vec<bool> {
     let mut shared = vec![false; first.len()];
     for (vertex, &first) in first.iter().enumerate() {
         if first as usize != vertex {
@@ -164,7 +169,7 @@ pub(crate) fn shared_places(mesh: &Mesh) -> Vec<u32> {
             shared[first as usize] = true;
         }
     }
-    (0..).zip(shared).filter(|(_, shared)| *shared).map(|(vertex, _)| vertex).collect()
+    shared
 }
 
 /// For each position the first kept one within `tolerance`; itself where it is kept.

@@ -276,13 +276,8 @@ impl Surface {
 
     /// What decides where a vertex goes, where vertices stay.
     pub(crate) fn terms(&self) -> Terms<'_> {
-        let wedges = Wedges {
-            faces: &self.faces,
-            corners: &self.wedges,
-            sources: self.sources.as_deref().unwrap_or_default(),
-            names: &self.wedge_names,
-        };
-        Terms { wedges, rows: self.rows.as_ref(), cross_seams: self.cross_seams }
+        let Self { faces, wedges, sources, wedge_names, rows, cross_seams, .. } = self;
+        terms(faces, wedges, sources.as_deref(), wedge_names, rows.as_ref(), *cross_seams)
     }
 
     /// The whole surface as one tile.
@@ -292,6 +287,8 @@ impl Surface {
 
     /// The surface cut into tiles before each of the vertices `cuts`, which ascend.
     pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
+        let Self { faces, wedges, sources, wedge_names, rows, cross_seams, .. } = self;
+        let terms = terms(faces, wedges, sources.as_deref(), wedge_names, rows.as_ref(), *cross_seams);
         let Attributes { normals, colors, uvs } = &mut self.attributes;
         let columns = Columns {
             points: &mut self.points,
@@ -303,18 +300,8 @@ impl Surface {
             colors: colors.as_deref_mut().unwrap_or_default(),
             uvs: uvs.as_deref_mut().unwrap_or_default(),
         };
-        let wedges = Wedges {
-            faces: &self.faces,
-            corners: &self.wedges,
-            sources: self.sources.as_deref().unwrap_or_default(),
-            names: &self.wedge_names,
-        };
-        let shared = Shared {
-            faces: &self.faces,
-            offsets: &self.offsets,
-            incidence: self.incidence.as_flattened(),
-            terms: Terms { wedges, rows: self.rows.as_ref(), cross_seams: self.cross_seams },
-        };
+        let incidence = self.incidence.as_flattened();
+        let shared = Shared { faces, offsets: &self.offsets, incidence, terms };
         let whole = Tile::new(columns, shared, self.collapses.is_some());
         let mut tiles = vec![whole];
         for cut in cuts {
@@ -383,6 +370,19 @@ impl Surface {
         self.offsets = Vec::new();
         self.incidence = Vec::new();
     }
+}
+
+/// What decides where a vertex goes, of a surface of which other parts may be in use.
+fn terms<'a>(
+    faces: &'a [Face],
+    corners: &'a [Face],
+    sources: Option<&'a [u32]>,
+    names: &'a WedgeNames,
+    rows: Option<&'a AttributeRows>,
+    cross_seams: bool,
+) -> Terms<'a> {
+    let wedges = Wedges { faces, corners, sources: sources.unwrap_or_default(), names };
+    Terms { wedges, rows, cross_seams }
 }
 
 /// Whether a face has not been collapsed.
