@@ -52,6 +52,7 @@ mod monitor;
 pub mod multiple_choice;
 mod quadric;
 mod random;
+pub mod rate_distortion;
 mod workers;
 
 pub use hqms::{
