@@ -58,7 +58,7 @@ pub enum Detail {
 #[derive(Debug)]
 pub struct Decomposition {
     lattice: Lattice,
-    /// By how much the squared error grows with each vertex, by number.
+    /// By how much the squared error grows with each vertex, by number, over [`Lattice::squared_unit`].
     deltas: Vec<f32>,
     /// The slopes at which vertices go, by number: none less than that of its children.
     slopes: Vec<f32>,
@@ -66,7 +66,7 @@ pub struct Decomposition {
     order: Vec<u32>,
     removable: usize,
     certificate: Certificate,
-    /// Of all samples together.
+    /// Of all samples together; over the same unit as heights' squares.
     weight: f64,
     /// The squared error after every [`NOTED`] vertices, once somebody asks.
     noted: OnceLock<Vec<f64>>,
@@ -192,7 +192,7 @@ impl Decomposition {
     /// as many: proven for this field, by a bound on all of them. Infinite if nothing is known.
     pub fn certified_gap(&self, vertices: usize) -> f64 {
         let removed = self.removed_for(vertices);
-        decibels(self.squared_error(removed), self.certificate.bound(removed))
+        decibels(self.squared_error(removed), self.bound(removed))
     }
 
     /// The RMS of the mesh of so many vertices, as tracked.
@@ -216,6 +216,7 @@ impl Decomposition {
 
     /// How many vertices may go within a squared error.
     fn removed_within(&self, limit: f64) -> usize {
+        let limit = limit / self.lattice.squared_unit();
         let noted = self.noted();
         // The error may fall a little on its way; what comes last counts.
         let Some(note) = noted.iter().rposition(|&error| error <= limit) else { return 0 };
@@ -232,19 +233,24 @@ impl Decomposition {
     }
 
     /// The squared error once so many vertices are gone.
-    fn squared_error(&self, removed: usize) -> f64 {
+    pub(crate) fn squared_error(&self, removed: usize) -> f64 {
         let note = removed / NOTED;
         let rest = self.order[note * NOTED..removed].iter();
         let error =
             rest.fold(self.noted()[note], |error, &vertex| error + f64::from(self.deltas[vertex as usize]));
-        error.max(0.0)
+        error.max(0.0) * self.lattice.squared_unit()
+    }
+
+    /// The least squared error of any conforming mesh that lacks so many vertices.
+    pub(crate) fn bound(&self, removed: usize) -> f64 {
+        self.certificate.bound(removed) * self.lattice.squared_unit()
     }
 
     fn noted(&self) -> &[f64] {
         self.noted.get_or_init(|| {
             let mut error = 0.0;
             let mut notes = vec![0.0];
-            for vertices in self.order[..self.removable].chunks(NOTED) {
+            for vertices in self.order[..self.removable].chunks_exact(NOTED) {
                 error += vertices.iter().map(|&vertex| f64::from(self.deltas[vertex as usize])).sum::<f64>();
                 notes.push(error);
             }
@@ -271,7 +277,7 @@ impl Decomposition {
     }
 
     /// The vertices that are left once so many are gone, and those that the bound needs.
-    fn within(&self, removed: usize, bound: f64) -> Left {
+    pub(crate) fn within(&self, removed: usize, bound: f64) -> Left {
         let cut = self.cut(removed);
         max_error::least(&self.lattice, bound, |vertex| key(&self.slopes, vertex) >= cut)
     }
@@ -281,7 +287,7 @@ impl Decomposition {
         self.order.get(removed).map_or(u64::MAX, |&vertex| key(&self.slopes, vertex as usize))
     }
 
-    fn extract(&self, removed: usize) -> Extract {
+    pub(crate) fn extract(&self, removed: usize) -> Extract {
         let cut = self.cut(removed);
         extract(&self.lattice, |vertex| key(&self.slopes, vertex) >= cut)
     }
@@ -300,7 +306,7 @@ impl Decomposition {
 
     fn squared_error_of(&self, left: &Left) -> f64 {
         let gone = self.deltas.iter().enumerate().filter(|&(vertex, _)| !left.contains(vertex));
-        gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>().max(0.0)
+        gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>().max(0.0) * self.lattice.squared_unit()
     }
 
     fn finish(&self, extract: Extract, squared_error: f64) -> Approximation {
@@ -311,6 +317,25 @@ impl Decomposition {
             squared_error,
             rms: self.root_mean(squared_error),
         }
+    }
+}
+
+#[cfg(test)]
+impl Decomposition {
+    pub(crate) fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    pub(crate) fn removable(&self) -> usize {
+        self.removable
+    }
+
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    pub(crate) fn is_forced(&self, vertex: usize) -> bool {
+        self.slopes[vertex] >= NEVER
     }
 }
 

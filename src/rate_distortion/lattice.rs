@@ -14,6 +14,9 @@ pub(crate) struct Lattice {
     layout: Layout,
     /// The heights of all samples of the layout, where the field has not one for each.
     filled: Option<Vec<f32>>,
+    /// What heights and weights are divided by, powers of two, so that no sum of squares is beyond what an `f32`
+    /// holds, whatever the unit.
+    units: [f64; 2],
 }
 
 impl Lattice {
@@ -22,7 +25,11 @@ impl Lattice {
         let [right, bottom] = layout.extent();
         let fits = (right + 1, bottom + 1) == (field.columns(), field.rows());
         let filled = (!fits || field.voids() > 0).then(|| filled(&field, right + 1, bottom + 1));
-        Self { field, layout, filled }
+        let (low, high) = field.range();
+        let most =
+            field.importance().unwrap_or(&[1.0]).iter().fold(0.0, |most: f32, &weight| most.max(weight));
+        let units = [power_of_two(f64::from(high) - f64::from(low)), power_of_two(f64::from(most))];
+        Self { field, layout, filled, units }
     }
 
     pub(crate) fn field(&self) -> &HeightField {
@@ -52,7 +59,17 @@ impl Lattice {
         (x as usize) < self.field.columns() && (y as usize) < self.field.rows()
     }
 
-    /// How much the squared error at a sample counts: nothing where nothing is known.
+    /// What a height is divided by where squared errors are summed up.
+    pub(crate) fn unit(&self) -> f64 {
+        self.units[0]
+    }
+
+    /// What a sum of squared errors, of heights and weights that were divided, has to be multiplied by.
+    pub(crate) fn squared_unit(&self) -> f64 {
+        self.units[0] * self.units[0] * self.units[1]
+    }
+
+    /// How much the squared error at a sample counts, of 1: nothing where nothing is known.
     pub(crate) fn weight(&self, place: Place) -> f64 {
         if !self.is_inside(place) {
             return 0.0;
@@ -60,7 +77,7 @@ impl Lattice {
         let sample = place[1] as usize * self.field.columns() + place[0] as usize;
         match self.field.importance() {
             _ if self.field.heights()[sample].is_nan() => 0.0,
-            Some(importance) => f64::from(importance[sample]),
+            Some(importance) => f64::from(importance[sample]) / self.units[1],
             None => 1.0,
         }
     }
@@ -95,20 +112,16 @@ impl Lattice {
     }
 }
 
-/// The field's own heights, mirrored at its right and at its lower edge, and voids filled with what is known
-/// beside them.
+/// The power of two at or below a number; 1 for 0.
+fn power_of_two(number: f64) -> f64 {
+    if number > 0.0 { number.log2().floor().exp2() } else { 1.0 }
+}
+
+/// The field's own heights with voids filled by what is known beside them; beyond its right and its lower edge it is
+/// turned about the edge by half a turn, which goes on as a plane where the field is one.
 fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
     let (columns, rows) = (field.columns(), field.rows());
-    let mirrored = |index: usize, count: usize| {
-        let period = 2 * (count - 1);
-        let index = index % period;
-        index.min(period - index)
-    };
-    let mut heights = Vec::with_capacity(width * height);
-    for y in 0..height {
-        let row = mirrored(y, rows) * columns;
-        heights.extend((0..width).map(|x| field.heights()[row + mirrored(x, columns)]));
-    }
+    let mut known = field.heights().to_vec();
     if field.voids() > 0 {
         let mut last = f32::NAN;
         let mut fill = |height: &mut f32| match height.is_nan() {
@@ -116,8 +129,22 @@ fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
             false => last = *height,
         };
         // The first heights may be void; the way back fills them with what came first.
-        heights.iter_mut().for_each(&mut fill);
-        heights.iter_mut().rev().for_each(&mut fill);
+        known.iter_mut().for_each(&mut fill);
+        known.iter_mut().rev().for_each(&mut fill);
+    }
+    let turned = |edge: f32, mirrored: f32| (2.0 * edge - mirrored).clamp(f32::MIN, f32::MAX);
+    // A layout reaches beyond its field by no more than a quarter of it (`Layout::covering`).
+    let row = |row: usize| {
+        let known = &known[row * columns..][..columns];
+        let beyond = (columns..width).map(|x| turned(known[columns - 1], known[2 * (columns - 1) - x]));
+        known.iter().copied().chain(beyond)
+    };
+    let mut heights = Vec::with_capacity(width * height);
+    (0..rows).for_each(|y| heights.extend(row(y)));
+    for y in rows..height {
+        heights.extend(
+            row(rows - 1).zip(row(2 * (rows - 1) - y)).map(|(edge, mirrored)| turned(edge, mirrored)),
+        );
     }
     heights
 }
@@ -127,6 +154,7 @@ pub(crate) struct Collected<'a> {
     lattice: &'a Lattice,
     width: usize,
     heights: &'a [f32],
+    per_unit: f64,
     /// Whether each sample counts as one, as nearly always.
     is_plain: bool,
     /// What the triangles on either side of the edge that a vertex splits add. Each writes to its own, so that
@@ -141,12 +169,13 @@ impl<'a> Collected<'a> {
             lattice,
             width: lattice.layout.extent()[0] + 1,
             heights: lattice.heights(),
+            per_unit: lattice.unit().recip(),
             is_plain: lattice.fits() && lattice.field.importance().is_none(),
             sides: [zeros(), zeros()],
         }
     }
 
-    /// The change of distortion of each vertex, by number.
+    /// The change of distortion of each vertex, by number, over [`Lattice::squared_unit`].
     pub(crate) fn into_deltas(self) -> Vec<f32> {
         let [first, second] = self.sides;
         let value = |bits: AtomicU32| f32::from_bits(bits.into_inner());
@@ -162,7 +191,7 @@ impl Field for Collected<'_> {
     }
 
     fn value(&self, [x, y]: Place) -> f64 {
-        f64::from(self.heights[y as usize * self.width + x as usize])
+        f64::from(self.heights[y as usize * self.width + x as usize]) * self.per_unit
     }
 
     fn weight(&self, place: Place) -> f64 {

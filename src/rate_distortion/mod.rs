@@ -10,6 +10,9 @@ mod lattice;
 mod layout;
 mod max_error;
 
+#[cfg(test)]
+mod tests;
+
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
