@@ -128,6 +128,12 @@ impl Decomposition {
         Self { lattice, deltas, slopes, order, removable, certificate, weight, noted: OnceLock::new() }
     }
 
+    /// What it is made of: the grid, the slopes of [`of_slopes`](Self::of_slopes), and the proof.
+    #[cfg(feature = "io")]
+    pub(crate) fn parts(&self) -> (&Lattice, &[f32], &Certificate) {
+        (&self.lattice, &self.slopes, &self.certificate)
+    }
+
     /// The field.
     pub fn field(&self) -> &HeightField {
         self.lattice.field()

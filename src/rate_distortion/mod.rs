@@ -4,6 +4,8 @@ mod decomposition;
 mod distortion;
 mod error;
 mod extract;
+#[cfg(feature = "io")]
+mod file;
 mod flow;
 mod height_field;
 mod lattice;
