@@ -9,6 +9,9 @@ mod height_field;
 mod lattice;
 mod layout;
 mod max_error;
+mod raster;
+pub mod tiles;
+pub mod vertical;
 
 #[cfg(test)]
 mod tests;
@@ -16,3 +19,4 @@ mod tests;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
+pub use vertical::VerticalError;
