@@ -11,8 +11,11 @@ mod height_field;
 mod lattice;
 mod layout;
 mod max_error;
+mod raster;
 #[cfg(feature = "io")]
 mod read;
+pub mod tiles;
+pub mod vertical;
 
 #[cfg(test)]
 mod tests;
@@ -22,3 +25,4 @@ pub use error::Error;
 pub use height_field::HeightField;
 #[cfg(feature = "io")]
 pub use read::HeightFileError;
+pub use vertical::VerticalError;
