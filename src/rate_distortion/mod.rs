@@ -3,14 +3,24 @@
 mod baselines;
 #[cfg(test)]
 mod brute_force;
+mod decomposition;
+mod distortion;
 mod error;
+mod extract;
+mod flow;
 mod graph;
 mod height_field;
+mod lattice;
 mod layout;
+mod max_error;
 mod merging;
 pub mod polyline;
 mod priority;
 mod removals;
 
+#[cfg(test)]
+mod tests;
+
+pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
