@@ -24,8 +24,8 @@ impl Terrain {
         for (column, row) in (0..=rows).flat_map(|row| (0..=columns).map(move |column| (column, row))) {
             heights.insert((column * side, row * side), displaced(256));
         }
-        for vertex in 0..Layout::vertices(&layout) {
-            let site = Layout::site(&layout, vertex);
+        for vertex in 0..layout.vertices() {
+            let site = layout.site(vertex);
             let [from, to] = layout.edge(site).map(|end| heights[&end]);
             let height = (from + to) / 2.0 + displaced(256 >> (site.level / 2));
             heights.insert((site.x, site.y), height);
@@ -47,9 +47,9 @@ impl Terrain {
     /// The change of distortion that each vertex makes: the error of the triangles that it splits, less that of
     /// their halves.
     pub(super) fn deltas(&self) -> Vec<f64> {
-        (0..Layout::vertices(&self.layout))
+        (0..self.layout.vertices())
             .map(|vertex| {
-                let site = Layout::site(&self.layout, vertex);
+                let site = self.layout.site(vertex);
                 let whole: Vec<_> = self.layout.split(site).collect();
                 let middle = (site.x, site.y);
                 let halves: Vec<_> = whole
@@ -68,7 +68,7 @@ impl Terrain {
             0 => Vec::new(),
             _ => layout
                 .level(1)
-                .flat_map(|vertex| layout.split(Layout::site(layout, vertex)))
+                .flat_map(|vertex| layout.split(layout.site(vertex)))
                 .map(|triangle| (triangle, 1))
                 .collect(),
         };
@@ -139,9 +139,7 @@ impl Terrain {
 
 /// A graph as lists of children.
 fn children(graph: &impl Graph) -> Vec<Vec<usize>> {
-    (0..graph.vertices())
-        .map(|vertex| graph.children(graph.site(vertex)).map(|child| graph.vertex(child)).collect())
-        .collect()
+    (0..graph.vertices()).map(|vertex| graph.children(vertex).collect()).collect()
 }
 
 /// The least distortion for each number of vertices removed, by trying all sets that hold with each vertex its
@@ -149,7 +147,7 @@ fn children(graph: &impl Graph) -> Vec<Vec<usize>> {
 pub(super) fn exhaustive(graph: &impl Graph, deltas: &[f64]) -> (Vec<f64>, usize) {
     let children = children(graph);
     let mut fine_first: Vec<_> = (0..graph.vertices()).collect();
-    fine_first.sort_by_key(|&vertex| std::cmp::Reverse(graph.level(graph.site(vertex))));
+    fine_first.sort_by_key(|&vertex| std::cmp::Reverse(graph.level(vertex)));
     let mut least = vec![f64::INFINITY; deltas.len() + 1];
     let mut sets = 0;
     // Each set with how many of the vertices have been decided on, its size and its distortion.
@@ -195,12 +193,12 @@ pub(super) fn lower_hull(graph: &impl Graph, deltas: &[i64]) -> Vec<(usize, i64)
     hull
 }
 
-/// How far a distortion lies above the hull with so many vertices removed, times a positive number.
-pub(super) fn above_hull(hull: &[(usize, i64)], removed: usize, distortion: f64) -> i128 {
+/// How far a distortion lies above the hull with so many vertices removed.
+pub(super) fn above_hull(hull: &[(usize, i64)], removed: usize, distortion: f64) -> f64 {
     let pair = hull.windows(2).find(|pair| removed <= pair[1].0).unwrap();
-    let ([from, to], distortion) = ([pair[0], pair[1]], distortion as i64);
-    i128::from(distortion - from.1) * (to.0 - from.0) as i128
-        - (removed - from.0) as i128 * i128::from(to.1 - from.1)
+    let [from, to] = [pair[0], pair[1]];
+    let part = (removed - from.0) as f64 / (to.0 - from.0) as f64;
+    distortion - (from.1 as f64 + (to.1 - from.1) as f64 * part)
 }
 
 /// The vertices of greatest profit that hold all of their children: a maximum closure, by a minimum cut (Picard

@@ -3,81 +3,73 @@
 //!
 //! Balmelli, Vetterli and Liebling, "Mesh Optimization Using Global Error with Application to Geometry
 //! Simplification", section 1.4, Figure 4b: a directed acyclic graph, in which a vertex may go once its children
-//! are gone. Children are one level below their parents.
+//! are gone. Children are one level below their parents, of which there are two at most.
 
-use super::layout::{Layout, Site};
+use super::layout::Layout;
 
-/// Vertices that go after their children.
+/// Vertices, numbered from 0, that go after their children.
 pub(super) trait Graph {
-    /// A vertex, in the form that finds its relatives fastest.
-    type Site: Copy + PartialEq;
-
-    /// How many vertices may go. They are numbered from 0.
+    /// How many vertices may go.
     fn vertices(&self) -> usize;
 
-    fn site(&self, vertex: usize) -> Self::Site;
-
-    fn vertex(&self, site: Self::Site) -> usize;
-
     /// From 1, the coarsest, on.
-    fn level(&self, site: Self::Site) -> u32;
+    fn level(&self, vertex: usize) -> u32;
 
-    fn children(&self, site: Self::Site) -> impl Iterator<Item = Self::Site>;
+    fn children(&self, vertex: usize) -> impl Iterator<Item = usize>;
 
-    fn parents(&self, site: Self::Site) -> impl Iterator<Item = Self::Site>;
+    fn parents(&self, vertex: usize) -> impl Iterator<Item = usize>;
 }
 
 impl Graph for Layout {
-    type Site = Site;
-
     fn vertices(&self) -> usize {
-        Layout::vertices(self)
+        self.vertices()
     }
 
-    fn site(&self, vertex: usize) -> Site {
-        Layout::site(self, vertex)
+    fn level(&self, vertex: usize) -> u32 {
+        self.site(vertex).level
     }
 
-    fn vertex(&self, site: Site) -> usize {
-        self.index(site)
+    fn children(&self, vertex: usize) -> impl Iterator<Item = usize> {
+        self.children(self.site(vertex)).map(|child| self.index(child))
     }
 
-    fn level(&self, site: Site) -> u32 {
-        site.level
-    }
-
-    fn children(&self, site: Site) -> impl Iterator<Item = Site> {
-        Layout::children(self, site)
-    }
-
-    fn parents(&self, site: Site) -> impl Iterator<Item = Site> {
-        Layout::parents(self, site)
+    fn parents(&self, vertex: usize) -> impl Iterator<Item = usize> {
+        self.parents(self.site(vertex)).map(|parent| self.index(parent))
     }
 }
 
-/// Finds all ancestors of a vertex, each once, level by level. On each level they are few: all lie near.
-pub(super) struct Ancestors<S> {
-    generation: Vec<S>,
-    older: Vec<S>,
+const NONE: u32 = u32::MAX;
+
+/// Finds the ancestors of vertices, of which one in the finest of twenty levels has about a hundred.
+pub(super) struct Ancestors {
+    parents: Vec<[u32; 2]>,
+    /// Those on one level, which are few: all lie near.
+    generation: Vec<u32>,
+    older: Vec<u32>,
 }
 
-impl<S> Default for Ancestors<S> {
-    fn default() -> Self {
-        Self { generation: Vec::new(), older: Vec::new() }
+impl Ancestors {
+    pub(super) fn new(graph: &impl Graph) -> Self {
+        let parents = |vertex| {
+            let mut parents = graph.parents(vertex).map(|parent| parent as u32);
+            [parents.next().unwrap_or(NONE), parents.next().unwrap_or(NONE)]
+        };
+        let parents = (0..graph.vertices()).map(parents).collect();
+        Self { parents, generation: Vec::new(), older: Vec::new() }
     }
-}
 
-impl<S: Copy + PartialEq> Ancestors<S> {
-    pub(super) fn visit(&mut self, graph: &impl Graph<Site = S>, site: S, mut visitor: impl FnMut(usize, S)) {
+    /// Calls `visitor` with each ancestor of a vertex once, level by level.
+    #[inline]
+    pub(super) fn visit(&mut self, vertex: usize, mut visitor: impl FnMut(usize)) {
         self.generation.clear();
-        self.generation.push(site);
+        self.generation.push(vertex as u32);
         while !self.generation.is_empty() {
             self.older.clear();
-            for &site in &self.generation {
-                for parent in graph.parents(site) {
-                    if !self.older.contains(&parent) {
+            for &vertex in &self.generation {
+                for parent in self.parents[vertex as usize] {
+                    if parent != NONE && !self.older.contains(&parent) {
                         self.older.push(parent);
-                        visitor(graph.vertex(parent), parent);
+                        visitor(parent as usize);
                     }
                 }
             }
@@ -87,14 +79,14 @@ impl<S: Copy + PartialEq> Ancestors<S> {
 }
 
 /// Which vertices never go: those whose error is infinite, and all of their ancestors.
-pub(super) fn staying<G: Graph>(graph: &G, errors: &[impl Copy + Into<f64>]) -> Vec<bool> {
+pub(super) fn staying(graph: &impl Graph, errors: &[impl Copy + Into<f64>]) -> Vec<bool> {
     assert_eq!(errors.len(), graph.vertices());
     let mut stays = vec![false; errors.len()];
-    let mut ancestors = Ancestors::default();
-    for (vertex, &error) in errors.iter().enumerate() {
-        if error.into() == f64::INFINITY {
-            stays[vertex] = true;
-            ancestors.visit(graph, graph.site(vertex), |ancestor, _| stays[ancestor] = true);
+    let mut pending: Vec<_> =
+        (0..errors.len()).filter(|&vertex| errors[vertex].into() == f64::INFINITY).collect();
+    while let Some(vertex) = pending.pop() {
+        if !std::mem::replace(&mut stays[vertex], true) {
+            pending.extend(graph.parents(vertex));
         }
     }
     stays
@@ -108,32 +100,26 @@ mod tests {
     #[test]
     fn ancestors_are_those_that_have_one_as_a_descendant() {
         for layout in [Layout::new([1, 1], 3), Layout::new([2, 3], 2)] {
-            let vertices = Layout::vertices(&layout);
+            let vertices = layout.vertices();
             let mut descendants = vec![vec![false; vertices]; vertices];
             for vertex in (0..vertices).rev() {
-                let children: Vec<_> =
-                    layout.children(layout.site(vertex)).map(|site| layout.index(site)).collect();
-                for child in children {
+                for child in Graph::children(&layout, vertex) {
                     let below = descendants[child].clone();
                     descendants[vertex].iter_mut().zip(below).for_each(|(own, child)| *own |= child);
                     descendants[vertex][child] = true;
                 }
             }
-            let mut ancestors = Ancestors::default();
+            let mut ancestors = Ancestors::new(&layout);
             for vertex in 0..vertices {
                 let mut found = vec![0; vertices];
-                ancestors.visit(&layout, layout.site(vertex), |ancestor, site| {
-                    assert_eq!(Graph::vertex(&layout, site), ancestor);
-                    found[ancestor] += 1;
-                });
-                for other in 0..vertices {
-                    assert_eq!(found[other], usize::from(descendants[other][vertex]));
-                }
+                ancestors.visit(vertex, |ancestor| found[ancestor] += 1);
                 let mut errors = vec![1.0; vertices];
                 errors[vertex] = f64::INFINITY;
                 let stays = staying(&layout, &errors);
                 for other in 0..vertices {
-                    assert_eq!(stays[other], other == vertex || descendants[other][vertex]);
+                    let is_ancestor = descendants[other][vertex];
+                    assert_eq!(found[other], usize::from(is_ancestor));
+                    assert_eq!(stays[other], other == vertex || is_ancestor);
                 }
             }
         }

@@ -3,6 +3,7 @@
 mod baselines;
 #[cfg(test)]
 mod brute_force;
+mod comparison;
 mod decomposition;
 mod distortion;
 mod error;
@@ -21,6 +22,8 @@ mod removals;
 #[cfg(test)]
 mod tests;
 
+pub use baselines::Criterion;
+pub use comparison::Baseline;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;

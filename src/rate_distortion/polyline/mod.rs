@@ -17,10 +17,12 @@ mod free;
 mod optimum;
 mod tree;
 
+pub use super::baselines::Criterion;
 pub use optimum::{Optimum, optimum};
 
-use super::merging;
-use super::{baselines, removals::Removals};
+use super::removals::Removals;
+use super::{baselines, merging};
+use std::convert::Infallible;
 use tree::Tree;
 
 /// What makes no polyline, or one that is too much.
@@ -89,7 +91,8 @@ impl Polyline {
     /// How far a sample between two others lies above the segment that joins these.
     fn residual(&self, [from, middle, to]: [usize; 3]) -> f64 {
         let [start, height, end] = [from, middle, to].map(|sample| f64::from(self.heights[sample]));
-        height - (start + (end - start) * ((middle - from) as f64 / (to - from) as f64))
+        let slope = (end - start) / (to - from) as f64;
+        height - (start + slope * (middle - from) as f64)
     }
 
     /// The squared error of the segment that joins two samples.
@@ -134,15 +137,6 @@ pub enum Choice {
     Tree,
     /// Any.
     Free,
-}
-
-/// The error of a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Criterion {
-    /// How far the sample lies from the segment that takes its place, vertically.
-    Local,
-    /// By how much the distortion of the whole changes.
-    Global,
 }
 
 /// Approximations of a polyline for all rates, each of them a part of the next finer.
@@ -196,7 +190,7 @@ impl Approximations {
 
     /// The numbers of segments at which a step of the method ends, descending, all segments first. A greedy
     /// method steps by single samples but for ancestors that have to come along, [`Method::RateDistortion`] by
-    /// subtrees.
+    /// subtrees. Between its steps, parts of these subtrees are gone, and more segments may be worse than fewer.
     pub fn steps(&self) -> impl Iterator<Item = usize> {
         let segments = self.order.len() + 1;
         std::iter::once(0).chain(self.steps.iter().copied()).map(move |gone| segments - gone)
@@ -220,7 +214,10 @@ pub fn approximate(polyline: &Polyline, method: Method) -> Approximations {
     let costs = |criterion| -> Vec<f64> { tree.spans().map(|span| polyline.cost(span, criterion)).collect() };
     let deltas = costs(Criterion::Global);
     let removals = match method {
-        Method::RateDistortion => merging::decimate(&tree, &deltas),
+        Method::RateDistortion => {
+            let Ok(removals) = merging::decimate(&tree, &deltas, |_| Ok::<_, Infallible>(()));
+            removals
+        }
         Method::Decimation(..) => baselines::decimation(&tree, &costs(criterion)),
         Method::Insertion(..) => baselines::insertion(&tree, &costs(criterion)),
     };

@@ -45,34 +45,23 @@ impl Tree {
 }
 
 impl Graph for Tree {
-    /// The number.
-    type Site = u32;
-
     fn vertices(&self) -> usize {
         self.ends.len()
     }
 
-    fn site(&self, vertex: usize) -> u32 {
-        vertex as u32
+    fn level(&self, vertex: usize) -> u32 {
+        self.levels[vertex]
     }
 
-    fn vertex(&self, site: u32) -> usize {
-        site as usize
+    fn children(&self, vertex: usize) -> impl Iterator<Item = usize> {
+        let ([from, to], sample) = (self.ends[vertex], vertex as u32 + 1);
+        [[from, sample], [sample, to]].into_iter().filter_map(Self::middle).map(|middle| middle as usize - 1)
     }
 
-    fn level(&self, site: u32) -> u32 {
-        self.levels[site as usize]
-    }
-
-    fn children(&self, site: u32) -> impl Iterator<Item = u32> {
-        let ([from, to], sample) = (self.ends[site as usize], Self::sample(site));
-        [[from, sample], [sample, to]].into_iter().filter_map(Self::middle).map(|middle| middle - 1)
-    }
-
-    fn parents(&self, site: u32) -> impl Iterator<Item = u32> {
+    fn parents(&self, vertex: usize) -> impl Iterator<Item = usize> {
         // What halved last is what made this part.
-        let finer = self.ends[site as usize].into_iter().max_by_key(|&end| self.level_of(end));
-        finer.filter(|_| self.levels[site as usize] > 1).map(|end| end - 1).into_iter()
+        let finer = self.ends[vertex].into_iter().max_by_key(|&end| self.level_of(end));
+        finer.filter(|_| self.levels[vertex] > 1).map(|end| end as usize - 1).into_iter()
     }
 }
 
@@ -87,20 +76,20 @@ mod tests {
             let tree = Tree::new(samples);
             assert_eq!(tree.vertices(), samples - 2);
             let mut roots = 0;
-            for site in 0..samples as u32 - 2 {
-                let parents: Vec<_> = tree.parents(site).collect();
+            for vertex in 0..samples - 2 {
+                let parents: Vec<_> = tree.parents(vertex).collect();
                 match parents[..] {
                     [] => roots += 1,
                     [parent] => {
-                        assert_eq!(tree.level(parent) + 1, tree.level(site));
-                        assert!(tree.children(parent).any(|child| child == site));
+                        assert_eq!(tree.level(parent) + 1, tree.level(vertex));
+                        assert!(tree.children(parent).any(|child| child == vertex));
                     }
                     _ => panic!("{parents:?}"),
                 }
-                assert!(tree.children(site).all(|child| tree.parents(child).eq([site])));
+                assert!(tree.children(vertex).all(|child| tree.parents(child).eq([vertex])));
             }
             assert_eq!(roots, usize::from(samples > 2));
-            let deepest = (0..samples as u32 - 2).map(|site| tree.level(site)).max().unwrap_or(0);
+            let deepest = (0..samples - 2).map(|vertex| tree.level(vertex)).max().unwrap_or(0);
             assert_eq!(deepest, (samples - 1).next_power_of_two().trailing_zeros());
         }
     }
