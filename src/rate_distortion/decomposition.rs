@@ -279,6 +279,15 @@ impl Decomposition {
         Ok(check_error("RMS", rms)?.powi(2) * self.weight)
     }
 
+    /// How many vertices may go.
+    pub(crate) fn removable(&self) -> usize {
+        self.removable
+    }
+
+    pub(crate) fn root_mean(&self, squared_error: f64) -> f64 {
+        if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 }
+    }
+
     /// The vertices that are left once so many are gone, and those that the bound needs.
     pub(crate) fn within(&self, removed: usize, bound: f64) -> Left {
         let cut = self.cut(removed);
@@ -319,7 +328,7 @@ impl Decomposition {
             mesh: extract.to_mesh(&self.lattice),
             samples: extract.places.iter().map(|[x, y]| y * columns + x).collect(),
             squared_error,
-            rms: if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 },
+            rms: self.root_mean(squared_error),
             certified_gap: decibels(squared_error, self.bound(removed)),
         }
     }
@@ -329,10 +338,6 @@ impl Decomposition {
 impl Decomposition {
     pub(crate) fn lattice(&self) -> &Lattice {
         &self.lattice
-    }
-
-    pub(crate) fn removable(&self) -> usize {
-        self.removable
     }
 
     pub(crate) fn order(&self) -> &[u32] {

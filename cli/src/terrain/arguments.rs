@@ -24,6 +24,9 @@ pub(crate) struct TerrainArguments {
     /// Draw what signal-to-noise ratio comes of how many vertices, by this and by simpler methods, as a PNG.
     #[arg(long, value_name = "CURVE.png")]
     pub(crate) plot: Option<PathBuf>,
+    /// Threads to use; 0: all that the machine has. The result does not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
     #[command(flatten)]
     pub(crate) common: CommonArguments,
 }
@@ -68,9 +71,6 @@ pub(crate) struct CommonArguments {
     /// Write the text variant of formats that have one.
     #[arg(long)]
     pub(crate) ascii: bool,
-    /// Threads to use; 0: all that the machine has. The result does not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) threads: usize,
     /// Write what happened, as JSON, to this file.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,

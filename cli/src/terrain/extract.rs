@@ -5,7 +5,7 @@ use std::time::Instant;
 use decimesh::rate_distortion::Decomposition;
 
 use super::arguments::ExtractArguments;
-use super::report::{TerrainReport, certified_gap};
+use super::report::TerrainReport;
 use super::{tell, write_mesh};
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
@@ -16,11 +16,10 @@ pub(crate) fn run(arguments: &ExtractArguments) -> Result<(), Failure> {
     check_output(output)?;
     common.report.as_deref().map_or(Ok(()), check_directory)?;
 
-    let detail = detail.detail();
     let begin = Instant::now();
     let (result, peak_bytes) = peak_bytes(|| -> Result<_, Failure> {
         let decomposition = Decomposition::read(input).map_err(Failure::Read)?;
-        let approximation = decomposition.at(detail)?;
+        let approximation = decomposition.at(detail.detail())?;
         Ok((decomposition, approximation))
     });
     let seconds = begin.elapsed().as_secs_f64();
@@ -28,7 +27,6 @@ pub(crate) fn run(arguments: &ExtractArguments) -> Result<(), Failure> {
 
     let seconds_write = write_mesh(&approximation, output, common)?;
     let report = TerrainReport {
-        certified_gap_db: certified_gap(&decomposition, detail, approximation.mesh.positions().len()),
         seconds,
         seconds_write,
         peak_bytes,

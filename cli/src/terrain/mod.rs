@@ -17,14 +17,14 @@ pub(crate) use extract::run as extract;
 
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
-use crate::files::{check_directory, check_output, write};
+use crate::files::{check_directory, check_output, file_name, write};
 use crate::progress::Progress;
 use crate::report::{print, write_json};
 use arguments::CommonArguments;
-use report::{MeasuredError, TerrainReport, certified_gap, summary};
+use report::{MeasuredError, TerrainReport, summary};
 
 pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
-    let TerrainArguments { input, output, detail, heights, plot, common } = arguments;
+    let TerrainArguments { input, output, detail, heights, plot, threads, common } = arguments;
     check_output(output)?;
     common.report.as_deref().map_or(Ok(()), check_directory)?;
     plot.as_deref().map_or(Ok(()), check_directory)?;
@@ -33,14 +33,13 @@ pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
     let field = heights.read(input)?;
     let seconds_read = begin.elapsed().as_secs_f64();
 
-    let detail = detail.detail();
-    let options = DecompositionOptions { threads: common.threads, ..DecompositionOptions::default() };
+    let options = DecompositionOptions { threads: *threads, ..DecompositionOptions::default() };
     let progress = Progress::new(common.quiet);
     let begin = Instant::now();
     let (result, peak_bytes) = peak_bytes(|| -> Result<_, Error> {
-        let decomposition = progress
-            .during("decomposing", |monitor| Decomposition::new(field, &options, monitor))?;
-        let approximation = decomposition.at(detail)?;
+        let decomposition =
+            progress.during("decomposing", |monitor| Decomposition::new(field, &options, monitor))?;
+        let approximation = decomposition.at(detail.detail())?;
         Ok((decomposition, approximation))
     });
     let seconds = begin.elapsed().as_secs_f64();
@@ -48,10 +47,10 @@ pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
 
     let seconds_write = write_mesh(&approximation, output, common)?;
     if let Some(path) = plot {
-        plot::write(&decomposition, &approximation, path)?;
+        let name = file_name(input);
+        progress.during("plotting", |monitor| plot::write(&decomposition, &name, path, monitor))?;
     }
     let report = TerrainReport {
-        certified_gap_db: certified_gap(&decomposition, detail, approximation.mesh.positions().len()),
         seconds,
         seconds_read: Some(seconds_read),
         seconds_write,
@@ -71,8 +70,8 @@ impl TerrainReport {
             samples: decomposition.samples(),
             vertices_out: approximation.mesh.positions().len(),
             triangles_out: approximation.mesh.triangles().len(),
-            error: MeasuredError::of(field, approximation),
-            certified_gap_db: None,
+            error: MeasuredError::of(decomposition, approximation),
+            certified_gap_db: approximation.certified_gap,
             seconds: 0.0,
             seconds_read: None,
             seconds_write: 0.0,

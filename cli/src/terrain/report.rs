@@ -1,7 +1,6 @@
 //! What is said about terrain.
 
-use decimesh::rate_distortion::vertical::measure;
-use decimesh::rate_distortion::{Approximation, Decomposition, Detail, HeightField};
+use decimesh::rate_distortion::{Approximation, Decomposition, HeightField};
 use serde::Serialize;
 
 use crate::report::{grouped, significant};
@@ -17,9 +16,8 @@ pub(crate) struct TerrainReport {
     pub(crate) triangles_out: usize,
     #[serde(flatten)]
     pub(crate) error: MeasuredError,
-    /// How far the squared error can be above that of the best conforming mesh of as many vertices; null for a
-    /// maximum error, whose mesh is the smallest there is.
-    pub(crate) certified_gap_db: Option<f64>,
+    /// How far the squared error can be above that of the best conforming mesh of as many vertices.
+    pub(crate) certified_gap_db: f64,
     /// Of decomposing, or of reading a hierarchy, and of taking the mesh from it.
     pub(crate) seconds: f64,
     /// Of reading the heights.
@@ -55,14 +53,10 @@ pub(crate) struct DecomposeReport {
 }
 
 impl MeasuredError {
-    pub(crate) fn of(field: &HeightField, approximation: &Approximation) -> Self {
-        let columns = field.columns() as u32;
-        let places: Vec<_> =
-            approximation.samples.iter().map(|sample| [sample % columns, sample / columns]).collect();
-        let mesh = &approximation.mesh;
-        let heights: Vec<_> = mesh.positions().iter().map(|[_, _, height]| *height).collect();
-        let error = measure(field, &places, &heights, mesh.triangles());
-        Self { rms: error.rms(), max: error.maximum, psnr_db: psnr(field, error.rms()) }
+    pub(crate) fn of(decomposition: &Decomposition, approximation: &Approximation) -> Self {
+        let error = decomposition.measure(approximation);
+        let rms = error.rms();
+        Self { rms, max: error.maximum, psnr_db: psnr(decomposition.field(), rms) }
     }
 }
 
@@ -72,26 +66,17 @@ pub(crate) fn psnr(field: &HeightField, rms: f64) -> f64 {
     20.0 * ((f64::from(high) - f64::from(low)) / rms).log10()
 }
 
-/// How good a mesh of so many vertices is known to be, where that is asked of the order that it comes from.
-pub(crate) fn certified_gap(decomposition: &Decomposition, detail: Detail, vertices: usize) -> Option<f64> {
-    match detail {
-        Detail::MaxError(_) => None,
-        _ => Some(decomposition.certified_gap(vertices)),
-    }
-}
-
 pub(crate) fn summary(report: &TerrainReport) -> String {
     let TerrainReport { samples, vertices_out, triangles_out, error, seconds, .. } = *report;
-    let gap = report.certified_gap_db.map_or_else(String::new, |gap| {
-        format!(", at most {} dB above the best conforming mesh", significant(gap))
-    });
     format!(
-        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({:.1} dB){gap}\n",
+        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({:.1} dB), at most {} dB above the \
+         best conforming mesh\n",
         grouped(samples),
         grouped(vertices_out),
         grouped(triangles_out),
         significant(error.rms),
         significant(error.max),
         error.psnr_db,
+        significant(report.certified_gap_db),
     )
 }
