@@ -10,6 +10,7 @@ mod lattice;
 mod layout;
 mod max_error;
 mod raster;
+mod rate;
 pub mod tiles;
 pub mod vertical;
 
