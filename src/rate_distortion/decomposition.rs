@@ -188,6 +188,12 @@ impl Decomposition {
         }
     }
 
+    /// What it is made of: the grid, the slopes of [`of_slopes`](Self::of_slopes), and the proof.
+    #[cfg(feature = "io")]
+    pub(crate) fn parts(&self) -> (&Lattice, &[f32], &Certificate) {
+        (&self.lattice, &self.slopes, &self.certificate)
+    }
+
     /// The field.
     pub fn field(&self) -> &HeightField {
         self.lattice.field()
@@ -345,6 +351,15 @@ impl Decomposition {
         Ok(check_error("RMS", rms)?.powi(2) * self.weight)
     }
 
+    pub(super) fn root_mean(&self, squared_error: f64) -> f64 {
+        if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 }
+    }
+
+    /// How many vertices may go.
+    pub(super) fn removable(&self) -> usize {
+        self.removable
+    }
+
     /// The vertices that are left once so many are gone, and those that the bound needs.
     pub(crate) fn within(&self, removed: usize, bound: f64) -> Left {
         let cut = self.cut(removed);
@@ -385,7 +400,7 @@ impl Decomposition {
             mesh: extract.to_mesh(&self.lattice),
             samples: extract.places.iter().map(|[x, y]| y * columns + x).collect(),
             squared_error,
-            rms: if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 },
+            rms: self.root_mean(squared_error),
             certified_gap: decibels(squared_error, self.bound(removed)),
         }
     }
@@ -395,10 +410,6 @@ impl Decomposition {
 impl Decomposition {
     pub(crate) fn lattice(&self) -> &Lattice {
         &self.lattice
-    }
-
-    pub(crate) fn removable(&self) -> usize {
-        self.removable
     }
 
     pub(crate) fn order(&self) -> &[u32] {
