@@ -1,0 +1,77 @@
+//! The squared vertical error of single triangles: what every decision here rests on.
+
+use super::triangulation::Vertex;
+use crate::rate_distortion::height_field::HeightField;
+use crate::rate_distortion::raster::visit_rows;
+use crate::rate_distortion::vertical::Plane;
+use std::borrow::Cow;
+
+/// The samples of a field, ready to be summed over without a question about any: voids are samples of weight 0.
+pub(super) struct Samples<'a> {
+    columns: usize,
+    heights: Cow<'a, [f32]>,
+    weights: Option<Cow<'a, [f32]>>,
+}
+
+impl<'a> Samples<'a> {
+    /// Copies heights only of a field with voids.
+    pub(super) fn new(field: &'a HeightField) -> Self {
+        let (columns, heights) = (field.columns(), field.heights());
+        if field.voids() == 0 {
+            return Self { columns, heights: heights.into(), weights: field.importance().map(Cow::from) };
+        }
+        let mut weights = field.importance().map_or_else(|| vec![1.0; heights.len()], <[f32]>::to_vec);
+        let mut heights = heights.to_vec();
+        for (height, weight) in heights.iter_mut().zip(&mut weights).filter(|(height, _)| height.is_nan()) {
+            (*height, *weight) = (0.0, 0.0);
+        }
+        Self { columns, heights: heights.into(), weights: Some(weights.into()) }
+    }
+
+    /// The height and the weight of a sample.
+    pub(super) fn at(&self, column: i32, row: i32) -> (f64, f64) {
+        let sample = row as usize * self.columns + column as usize;
+        let weight = self.weights.as_ref().map_or(1.0, |weights| f64::from(weights[sample]));
+        (f64::from(self.heights[sample]), weight)
+    }
+
+    /// The weighted sum of squared vertical distances between a triangle and the samples that it owns.
+    pub(super) fn squared_error(&self, corners: [Vertex; 3], rim: [bool; 3]) -> f64 {
+        let places = corners.map(|vertex| vertex.place);
+        let plane = Plane::through(places, corners.map(|vertex| f64::from(vertex.height)));
+        let slope = plane.slope[0];
+        let mut sum = 0.0;
+        visit_rows(places, rim, |row, columns| {
+            let mut surface = plane.at(columns.start, row);
+            let start = row as usize * self.columns;
+            let samples = start + columns.start as usize..start + columns.end as usize;
+            match &self.weights {
+                None => {
+                    for &height in &self.heights[samples] {
+                        let distance = f64::from(height) - surface;
+                        sum += distance * distance;
+                        surface += slope;
+                    }
+                }
+                Some(weights) => {
+                    for (&height, &weight) in self.heights[samples.clone()].iter().zip(&weights[samples]) {
+                        let distance = f64::from(height) - surface;
+                        sum += f64::from(weight) * distance * distance;
+                        surface += slope;
+                    }
+                }
+            }
+        });
+        sum
+    }
+
+    /// Calls `visit` with each sample that a triangle owns: column, row, height and weight.
+    pub(super) fn visit(&self, corners: [Vertex; 3], rim: [bool; 3], mut visit: impl FnMut(i32, i32, f64, f64)) {
+        visit_rows(corners.map(|vertex| vertex.place), rim, |row, columns| {
+            for column in columns {
+                let (height, weight) = self.at(column, row);
+                visit(column, row, height, weight);
+            }
+        });
+    }
+}

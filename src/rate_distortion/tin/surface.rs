@@ -1,0 +1,97 @@
+//! A triangulation over the samples, with the squared error of each of its triangles.
+
+use super::residual::Samples;
+use super::triangulation::{Fan, Triangulation, Vertex, next};
+
+/// A triangulation that knows its error.
+pub(super) struct Surface<'a> {
+    pub(super) mesh: Triangulation,
+    pub(super) samples: Samples<'a>,
+    errors: Vec<f64>,
+}
+
+/// By which part an error must fall for a flip: by more than sums of it may be off, or edges would be flipped to
+/// and fro.
+const LEAST_GAIN: f64 = 1e-9;
+
+impl<'a> Surface<'a> {
+    pub(super) fn new(mesh: Triangulation, samples: Samples<'a>) -> Self {
+        let mut surface = Self { errors: vec![0.0; mesh.triangle_slots()], mesh, samples };
+        (0..surface.errors.len()).for_each(|triangle| surface.update(triangle));
+        surface
+    }
+
+    fn update(&mut self, triangle: usize) {
+        let (corners, rim) = self.mesh.triangle(triangle);
+        self.errors[triangle] = self.samples.squared_error(corners, rim);
+    }
+
+    /// The sum of the errors of all triangles. Vertices have the heights of their samples, so there is no other.
+    pub(super) fn squared_error(&self) -> f64 {
+        let standing = |&(triangle, _): &(usize, &f64)| self.mesh.has_triangle(triangle);
+        self.errors.iter().enumerate().filter(standing).map(|(_, error)| error).sum()
+    }
+
+    /// By how much the error grows if the vertex of a fan goes to a neighbour, and to which: the one where it
+    /// grows least, the first of equals. `None` if the vertex cannot go.
+    pub(super) fn cheapest_collapse(&self, vertex: u32, fan: &Fan) -> Option<(f64, usize)> {
+        let mut best: Option<(f64, usize)> = None;
+        self.mesh.targets(vertex, fan, |target| {
+            let limit = best.map_or(f64::INFINITY, |(error, _)| error);
+            let mut error = 0.0;
+            for spoke in fan.staying(target) {
+                let (corners, rim) = self.moved(fan, spoke, target);
+                error += self.samples.squared_error(corners, rim);
+                if error >= limit {
+                    return;
+                }
+            }
+            best = Some((error, target));
+        });
+        let before: f64 = fan.spokes.iter().map(|&spoke| self.errors[spoke as usize / 3]).sum();
+        best.map(|(error, target)| (error - before, target))
+    }
+
+    /// The triangle that one of a fan becomes when the vertex goes to a neighbour, and which of its edges are on
+    /// the rim.
+    fn moved(&self, fan: &Fan, spoke: usize, target: usize) -> ([Vertex; 3], [bool; 3]) {
+        let vertices = [target, spoke, fan.after(spoke)].map(|index| self.mesh.vertices[fan.ring[index] as usize]);
+        let is_rim = |spoke: usize| self.mesh.is_rim(next(fan.spokes[spoke]));
+        // The new edges are inner ones, but for those to the target's neighbours on the ring, which stood before,
+        // and for the one that takes the place of the rim in an open fan.
+        let on_rim = |from: usize, to: usize| {
+            fan.after(from) == to && (from == fan.spokes.len() || is_rim(from))
+        };
+        (vertices, [on_rim(target, spoke), is_rim(spoke), on_rim(fan.after(spoke), target)])
+    }
+
+    /// Lets the vertex of a fan go to a neighbour.
+    pub(super) fn collapse(&mut self, vertex: u32, fan: &Fan, target: usize) {
+        self.mesh.collapse(vertex, fan, target);
+        fan.staying(target).for_each(|spoke| self.update(fan.spokes[spoke] as usize / 3));
+    }
+
+    /// Flips an edge if that makes the error less; says whether it did.
+    pub(super) fn flip_if_better(&mut self, corner: u32) -> bool {
+        let Some(twin) = self.mesh.twin(corner) else { return false };
+        let (one, other) = (corner as usize / 3, twin as usize / 3);
+        let limit = (self.errors[one] + self.errors[other]) * (1.0 - LEAST_GAIN);
+        if limit <= 0.0 {
+            return false;
+        }
+        let Some(quad) = self.mesh.quad(corner) else { return false };
+        let [a, b, c, d] = quad.map(|vertex| self.mesh.vertices[vertex as usize]);
+        let [ab, bc, cd, da] = self.mesh.quad_edges(corner).map(|edge| self.mesh.is_rim(edge));
+        let first = self.samples.squared_error([a, c, d], [false, cd, da]);
+        if first >= limit {
+            return false;
+        }
+        let second = self.samples.squared_error([a, b, c], [ab, bc, false]);
+        if first + second >= limit {
+            return false;
+        }
+        self.mesh.flip(corner);
+        (self.errors[one], self.errors[other]) = (first, second);
+        true
+    }
+}
