@@ -5,7 +5,6 @@
 //! hardware rasterisers; on the *rim*, where no other triangle could have it, to the one there is. Corners belong
 //! to no triangle: they are the affair of whoever knows the vertices.
 
-use std::cmp::Ordering;
 use std::ops::Range;
 
 /// A sample by its column and row.
@@ -18,49 +17,72 @@ pub(crate) fn twice_area([a, b, c]: [Place; 3]) -> i64 {
     across(a, c) * down(a, b) - across(a, b) * down(a, c)
 }
 
-/// Calls `visit` with each row and the columns in it that a triangle owns, from the top down.
-///
-/// The triangle is counter-clockwise and has an area. `rim[k]` says whether the edge from corner `k` to the next
-/// is on the rim. Linear in the rows.
-#[inline]
-pub(crate) fn visit_rows(corners: [Place; 3], rim: [bool; 3], mut visit: impl FnMut(i32, Range<i32>)) {
-    // From the top (its left end, where it is an edge), one side runs down at the left and one at the right.
-    let above = |a: usize, b: usize| (corners[a][1], corners[a][0]) < (corners[b][1], corners[b][0]);
-    let top = match (above(0, 1), above(1, 2), above(2, 0)) {
-        (true, _, false) => 0,
-        (false, true, _) => 1,
-        _ => 2,
-    };
-    let (at_left, at_right) = ((top + 1) % 3, (top + 2) % 3);
-    let (across_rim, right_rim) = (rim[at_left], rim[at_right]);
-    let (top, at_left, at_right) = (corners[top], corners[at_left], corners[at_right]);
+/// The rows of samples that a triangle owns, from the top down: each row and its columns.
+pub(crate) struct Rows {
+    /// The row before the next.
+    row: i32,
+    last: i32,
+    left: Side,
+    right: Side,
+    /// Where the left and the right side turn towards the bottom.
+    turns: [Place; 2],
+    bottom: Place,
+    is_bottom_rim: bool,
+}
 
-    let mut left = Side::new(top, at_left, false);
-    if top[1] == at_right[1] {
-        visit(top[1], top[0] + 1..at_right[0]);
-        let mut right = Side::new(at_right, at_left, across_rim);
-        (top[1] + 1..at_left[1]).for_each(|row| visit(row, left.advance()..right.advance()));
-        return;
+impl Rows {
+    /// The rows of a triangle that is counter-clockwise and has an area. `rim[k]` says whether the edge from
+    /// corner `k` to the next is on the rim.
+    #[inline(always)]
+    pub(crate) fn of(corners: [Place; 3], rim: [bool; 3]) -> Self {
+        // From the top (its left end, where it is an edge), one side runs down at the left and one at the right.
+        let above = |a: usize, b: usize| (corners[a][1], corners[a][0]) < (corners[b][1], corners[b][0]);
+        let top = match (above(0, 1), above(1, 2), above(2, 0)) {
+            (true, _, false) => 0,
+            (false, true, _) => 1,
+            _ => 2,
+        };
+        let (at_left, at_right) = ((top + 1) % 3, (top + 2) % 3);
+        let (is_bottom_rim, is_right_rim) = (rim[at_left], rim[at_right]);
+        let (top, at_left, at_right) = (corners[top], corners[at_left], corners[at_right]);
+
+        let bottom = if at_left[1] > at_right[1] { at_left } else { at_right };
+        let is_owned_bottom = at_left[1] == at_right[1] && is_bottom_rim;
+        let last = if is_owned_bottom { bottom[1] } else { bottom[1] - 1 };
+        let left = Side::new(top, at_left, false);
+        if top[1] == at_right[1] {
+            // The first row is the edge at the top, and both sides begin with a turn.
+            let right = Side::new(at_right, bottom, is_bottom_rim);
+            return Self { row: top[1] - 1, last, left, right, turns: [top, at_right], bottom, is_bottom_rim };
+        }
+        let right = Side::new(top, at_right, is_right_rim);
+        Self { row: top[1], last, left, right, turns: [at_left, at_right], bottom, is_bottom_rim }
     }
-    let mut right = Side::new(top, at_right, right_rim);
-    let middle = at_left[1].min(at_right[1]);
-    (top[1] + 1..middle).for_each(|row| visit(row, left.advance()..right.advance()));
-    match at_left[1].cmp(&at_right[1]) {
-        Ordering::Equal => {
-            if across_rim {
-                visit(middle, at_left[0] + 1..at_right[0]);
-            }
+}
+
+impl Iterator for Rows {
+    type Item = (i32, Range<i32>);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<(i32, Range<i32>)> {
+        self.row += 1;
+        if self.row > self.last {
+            return None;
         }
-        Ordering::Less => {
-            visit(middle, at_left[0] + 1..right.advance());
-            left = Side::new(at_left, at_right, false);
-            (middle + 1..at_right[1]).for_each(|row| visit(row, left.advance()..right.advance()));
-        }
-        Ordering::Greater => {
-            visit(middle, left.advance()..at_right[0]);
-            right = Side::new(at_right, at_left, across_rim);
-            (middle + 1..at_left[1]).for_each(|row| visit(row, left.advance()..right.advance()));
-        }
+        let [at_left, at_right] = self.turns;
+        let start = if self.row == at_left[1] {
+            self.left = Side::new(at_left, self.bottom, false);
+            at_left[0] + 1
+        } else {
+            self.left.advance()
+        };
+        let end = if self.row == at_right[1] {
+            self.right = Side::new(at_right, self.bottom, self.is_bottom_rim);
+            at_right[0]
+        } else {
+            self.right.advance()
+        };
+        Some((self.row, start..end))
     }
 }
 
@@ -79,7 +101,7 @@ struct Side {
 
 impl Side {
     /// The edge down from one place to another. A sample on it is at its right, unless `beyond`.
-    #[inline]
+    #[inline(always)]
     fn new(from: Place, to: Place, beyond: bool) -> Self {
         let origin = from[0].min(to[0]);
         let height = f64::from(to[1] - from[1]);
@@ -90,7 +112,7 @@ impl Side {
     }
 
     /// The first column right of the edge in the next row.
-    #[inline]
+    #[inline(always)]
     fn advance(&mut self) -> i32 {
         self.numerator += self.step;
         self.origin + (self.numerator * self.reciprocal) as i32

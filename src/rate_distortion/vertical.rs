@@ -1,7 +1,7 @@
 //! How far a surface is from a height field, measured up and down at every sample.
 
 use super::height_field::HeightField;
-use super::raster::{Place, twice_area, visit_rows};
+use super::raster::{Place, Rows, twice_area};
 
 /// What is between the samples of a field and a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +34,7 @@ pub(crate) struct Plane {
 
 impl Plane {
     /// The plane through three points over corners that have an area.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn through(corners: [Place; 3], heights: [f64; 3]) -> Self {
         let [a, b, c] = corners;
         let reciprocal = -1.0 / twice_area(corners) as f64;
@@ -47,7 +47,7 @@ impl Plane {
         Self { place: a, height: heights[0], slope }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, column: i32, row: i32) -> f64 {
         self.height
             + self.slope[1] * f64::from(row - self.place[1])
@@ -100,9 +100,9 @@ pub fn measure(
         for (&[column, row], vertex) in corners.iter().zip(triangle) {
             add(column, row, f64::from(heights[vertex]));
         }
-        visit_rows(corners, [true; 3], |row, columns| {
+        for (row, columns) in Rows::of(corners, [true; 3]) {
             columns.for_each(|column| add(column, row, plane.at(column, row)));
-        });
+        }
     }
     error.uncovered = field.heights().len() - field.voids() - measured;
     error

@@ -7,7 +7,7 @@
 
 use super::flips::Edges;
 use super::surface::Surface;
-use super::triangulation::Fan;
+use super::triangulation::{Fan, next, previous};
 use crate::monitor::{Cancelled, Monitor};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -68,7 +68,7 @@ pub(super) fn collapse_to(
 struct Collapses<'a, 'b> {
     surface: &'a mut Surface<'b>,
     /// Costs, as whole numbers in the same order, and vertices.
-    queue: BinaryHeap<Reverse<(u64, u32)>>,
+    queue: BinaryHeap<Reverse<u64>>,
     states: Vec<State>,
     /// Where each vertex goes, by the index in its fan, while its cost is known.
     targets: Vec<u32>,
@@ -88,13 +88,14 @@ impl Collapses<'_, '_> {
         if let Some((cost, target)) = self.surface.cheapest_collapse(vertex, &self.fan) {
             self.targets[vertex as usize] = target as u32;
             self.states[vertex as usize] = State::Known;
-            self.queue.push(Reverse((key(cost), vertex)));
+            self.queue.push(Reverse(key(cost, vertex)));
         }
     }
 
     /// Takes the cheapest vertex away; `false` if none can go.
     fn take_cheapest(&mut self) -> bool {
-        while let Some(Reverse((_, vertex))) = self.queue.pop() {
+        while let Some(Reverse(key)) = self.queue.pop() {
+            let vertex = key as u32;
             match self.states[vertex as usize] {
                 State::Out => {}
                 State::Outdated => self.look_at(vertex),
@@ -115,7 +116,9 @@ impl Collapses<'_, '_> {
         self.states[vertex as usize] = State::Out;
         changed.clear();
         changed.extend_from_slice(&fan.ring);
-        fan.staying(target).for_each(|spoke| edges.add_triangle(fan.spokes[spoke] / 3));
+        for spoke in fan.staying(target).map(|spoke| fan.spokes[spoke]) {
+            [spoke, next(spoke), previous(spoke)].map(|edge| edges.add(edge));
+        }
         edges.settle(surface, |quad| changed.extend(quad));
         for changed in std::mem::take(&mut self.changed) {
             match self.states[changed as usize] {
@@ -127,8 +130,9 @@ impl Collapses<'_, '_> {
     }
 }
 
-/// A whole number for a cost, in the same order.
-fn key(cost: f64) -> u64 {
-    let bits = cost.to_bits();
-    if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+/// A number that orders by cost, ties by vertex, whose lower half it is. Costs may be negative.
+fn key(cost: f64, vertex: u32) -> u64 {
+    let bits = (cost as f32).to_bits();
+    let ordered = if bits >> 31 == 1 { !bits } else { bits | 1 << 31 };
+    u64::from(ordered) << 32 | u64::from(vertex)
 }

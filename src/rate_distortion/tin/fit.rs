@@ -46,7 +46,7 @@ impl Equations {
         }
         let mut diagonal = own.clone();
         let mut triangles = Vec::new();
-        for triangle in (0..mesh.triangle_slots()).filter(|&triangle| mesh.has_triangle(triangle)) {
+        for triangle in mesh.triangles() {
             let (corners, rim) = mesh.triangle(triangle);
             let names = mesh.names(triangle).map(|name| name as usize);
             let [a, b, c] = corners.map(|vertex| vertex.place);

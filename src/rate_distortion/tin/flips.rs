@@ -14,16 +14,16 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Looks at the edges of a triangle next.
-    pub(super) fn add_triangle(&mut self, triangle: u32) {
-        self.waiting.extend([3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
+    /// Looks at an edge next.
+    pub(super) fn add(&mut self, corner: u32) {
+        self.waiting.push(corner);
     }
 
     /// Flips what can be flipped with a gain, and then looks at the edges around it, until there is nothing left.
     /// Calls `flipped` with the vertices around each.
     pub(super) fn settle(&mut self, surface: &mut Surface, mut flipped: impl FnMut([u32; 4])) {
         while let Some(corner) = self.waiting.pop() {
-            if surface.mesh.has_corner(corner) && surface.flip_if_better(corner) {
+            if surface.flip_if_better(corner) {
                 let edges = surface.mesh.quad_edges(corner);
                 flipped(edges.map(|edge| surface.mesh.name(edge)));
                 self.waiting.extend(edges);
@@ -33,7 +33,7 @@ impl Edges {
 }
 
 /// How many triangles are looked at between two reports.
-const STRIDE: usize = 4096;
+const STRIDE: u32 = 4096;
 
 /// Flips all edges of a surface that can be flipped with a gain, those next to each other first; `report` is told
 /// which part of the triangles has been looked at.
@@ -44,12 +44,14 @@ pub(super) fn settle_all(
 ) -> Result<(), Cancelled> {
     let mut edges = Edges::default();
     let slots = surface.mesh.triangle_slots();
-    for triangle in (0..slots).filter(|&triangle| surface.mesh.has_triangle(triangle)).collect::<Vec<_>>() {
+    for triangle in 0..slots {
         if triangle % STRIDE == 0 {
             monitor.report(report(triangle as f32 / slots as f32))?;
         }
-        edges.add_triangle(triangle as u32);
-        edges.settle(surface, |_| ());
+        if surface.mesh.has_triangle(triangle) {
+            (4 * triangle..4 * triangle + 3).for_each(|corner| edges.add(corner));
+            edges.settle(surface, |_| ());
+        }
     }
     Ok(())
 }

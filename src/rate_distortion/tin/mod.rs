@@ -59,9 +59,9 @@ pub fn reduce(
     least_squares: bool,
     monitor: &mut Monitor,
 ) -> Result<Tin, Error> {
-    let at = |&[column, row]: &[u32; 2]| Vertex {
-        place: [column as i32, row as i32],
-        height: field.heights()[row as usize * field.columns() + column as usize],
+    let at = |&[column, row]: &[u32; 2]| {
+        let height = field.heights()[row as usize * field.columns() + column as usize];
+        Vertex::new([column as i32, row as i32], height)
     };
     let mesh = Triangulation::new(vertices.iter().map(at).collect(), triangles);
     let mut surface = Surface::new(mesh, Samples::new(field));

@@ -2,7 +2,7 @@
 
 use super::triangulation::Vertex;
 use crate::rate_distortion::height_field::HeightField;
-use crate::rate_distortion::raster::visit_rows;
+use crate::rate_distortion::raster::Rows;
 use crate::rate_distortion::vertical::Plane;
 use std::borrow::Cow;
 
@@ -41,7 +41,7 @@ impl<'a> Samples<'a> {
         let plane = Plane::through(places, corners.map(|vertex| f64::from(vertex.height)));
         let slope = plane.slope[0];
         let mut sum = 0.0;
-        visit_rows(places, rim, |row, columns| {
+        for (row, columns) in Rows::of(places, rim) {
             let mut surface = plane.at(columns.start, row);
             let start = row as usize * self.columns;
             let samples = start + columns.start as usize..start + columns.end as usize;
@@ -61,17 +61,17 @@ impl<'a> Samples<'a> {
                     }
                 }
             }
-        });
+        }
         sum
     }
 
     /// Calls `visit` with each sample that a triangle owns: column, row, height and weight.
     pub(super) fn visit(&self, corners: [Vertex; 3], rim: [bool; 3], mut visit: impl FnMut(i32, i32, f64, f64)) {
-        visit_rows(corners.map(|vertex| vertex.place), rim, |row, columns| {
+        for (row, columns) in Rows::of(corners.map(|vertex| vertex.place), rim) {
             for column in columns {
                 let (height, weight) = self.at(column, row);
                 visit(column, row, height, weight);
             }
-        });
+        }
     }
 }

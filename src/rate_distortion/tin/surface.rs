@@ -7,7 +7,6 @@ use super::triangulation::{Fan, Triangulation, Vertex, next};
 pub(super) struct Surface<'a> {
     pub(super) mesh: Triangulation,
     pub(super) samples: Samples<'a>,
-    errors: Vec<f64>,
 }
 
 /// By which part an error must fall for a flip: by more than sums of it may be off, or edges would be flipped to
@@ -16,20 +15,14 @@ const LEAST_GAIN: f64 = 1e-9;
 
 impl<'a> Surface<'a> {
     pub(super) fn new(mesh: Triangulation, samples: Samples<'a>) -> Self {
-        let mut surface = Self { errors: vec![0.0; mesh.triangle_slots()], mesh, samples };
-        (0..surface.errors.len()).for_each(|triangle| surface.update(triangle));
+        let mut surface = Self { mesh, samples };
+        (0..surface.mesh.triangle_slots()).for_each(|triangle| surface.update(triangle));
         surface
     }
 
-    fn update(&mut self, triangle: usize) {
+    fn update(&mut self, triangle: u32) {
         let (corners, rim) = self.mesh.triangle(triangle);
-        self.errors[triangle] = self.samples.squared_error(corners, rim);
-    }
-
-    /// The sum of the errors of all triangles. Vertices have the heights of their samples, so there is no other.
-    pub(super) fn squared_error(&self) -> f64 {
-        let standing = |&(triangle, _): &(usize, &f64)| self.mesh.has_triangle(triangle);
-        self.errors.iter().enumerate().filter(standing).map(|(_, error)| error).sum()
+        self.mesh.set_error(triangle, self.samples.squared_error(corners, rim));
     }
 
     /// By how much the error grows if the vertex of a fan goes to a neighbour, and to which: the one where it
@@ -48,14 +41,14 @@ impl<'a> Surface<'a> {
             }
             best = Some((error, target));
         });
-        let before: f64 = fan.spokes.iter().map(|&spoke| self.errors[spoke as usize / 3]).sum();
+        let before: f64 = fan.spokes.iter().map(|&spoke| self.mesh.error(spoke / 4)).sum();
         best.map(|(error, target)| (error - before, target))
     }
 
     /// The triangle that one of a fan becomes when the vertex goes to a neighbour, and which of its edges are on
     /// the rim.
     fn moved(&self, fan: &Fan, spoke: usize, target: usize) -> ([Vertex; 3], [bool; 3]) {
-        let vertices = [target, spoke, fan.after(spoke)].map(|index| self.mesh.vertices[fan.ring[index] as usize]);
+        let vertices = [target, spoke, fan.after(spoke)].map(|index| self.mesh.vertex(fan.ring[index]));
         let is_rim = |spoke: usize| self.mesh.is_rim(next(fan.spokes[spoke]));
         // The new edges are inner ones, but for those to the target's neighbours on the ring, which stood before,
         // and for the one that takes the place of the rim in an open fan.
@@ -68,19 +61,19 @@ impl<'a> Surface<'a> {
     /// Lets the vertex of a fan go to a neighbour.
     pub(super) fn collapse(&mut self, vertex: u32, fan: &Fan, target: usize) {
         self.mesh.collapse(vertex, fan, target);
-        fan.staying(target).for_each(|spoke| self.update(fan.spokes[spoke] as usize / 3));
+        fan.staying(target).for_each(|spoke| self.update(fan.spokes[spoke] / 4));
     }
 
     /// Flips an edge if that makes the error less; says whether it did.
     pub(super) fn flip_if_better(&mut self, corner: u32) -> bool {
         let Some(twin) = self.mesh.twin(corner) else { return false };
-        let (one, other) = (corner as usize / 3, twin as usize / 3);
-        let limit = (self.errors[one] + self.errors[other]) * (1.0 - LEAST_GAIN);
+        let (one, other) = (corner / 4, twin / 4);
+        let limit = (self.mesh.error(one) + self.mesh.error(other)) * (1.0 - LEAST_GAIN);
         if limit <= 0.0 {
             return false;
         }
         let Some(quad) = self.mesh.quad(corner) else { return false };
-        let [a, b, c, d] = quad.map(|vertex| self.mesh.vertices[vertex as usize]);
+        let [a, b, c, d] = quad.map(|vertex| self.mesh.vertex(vertex));
         let [ab, bc, cd, da] = self.mesh.quad_edges(corner).map(|edge| self.mesh.is_rim(edge));
         let first = self.samples.squared_error([a, c, d], [false, cd, da]);
         if first >= limit {
@@ -91,7 +84,8 @@ impl<'a> Surface<'a> {
             return false;
         }
         self.mesh.flip(corner);
-        (self.errors[one], self.errors[other]) = (first, second);
+        self.mesh.set_error(one, first);
+        self.mesh.set_error(other, second);
         true
     }
 }

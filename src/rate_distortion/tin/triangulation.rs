@@ -1,7 +1,7 @@
 //! A triangulation in the plane whose edges can be flipped and whose vertices can go to a neighbour.
 //!
-//! A corner table: three corners a triangle, and each corner also stands for the edge to the next corner of its
-//! triangle, as one half of it. The other half is its *twin*; edges without are on the rim.
+//! A corner table: each corner of a triangle also stands for the edge to the next corner, as one half of it. The
+//! other half is its *twin*; edges without are on the rim. Corner `k` of triangle `t` is number `4 t + k`.
 
 use crate::rate_distortion::raster::{Place, twice_area};
 
@@ -12,17 +12,31 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Vertex {
     pub(super) place: Place,
     pub(super) height: f32,
+    /// A corner of it, or `NONE`.
+    corner: u32,
+}
+
+impl Vertex {
+    /// A vertex that has no triangles yet.
+    pub(super) fn new(place: Place, height: f32) -> Self {
+        Self { place, height, corner: NONE }
+    }
+}
+
+/// All that is known of a triangle, in half a cache line: what is asked for next is nearly always next to it.
+#[derive(Debug, Clone, Copy)]
+struct Triangle {
+    /// The vertices; `NONE` if the triangle is gone.
+    vertices: [u32; 3],
+    twins: [u32; 3],
+    error: f64,
 }
 
 /// Triangles that lie side by side, counter-clockwise from above; they may leave holes.
 #[derive(Debug, Clone)]
 pub(super) struct Triangulation {
     pub(super) vertices: Vec<Vertex>,
-    /// The vertex at each corner; `NONE` if its triangle is gone.
-    corners: Vec<u32>,
-    twins: Vec<u32>,
-    /// A corner of each vertex.
-    corner_of: Vec<u32>,
+    triangles: Vec<Triangle>,
     /// Vertices where triangles meet in several fans. They stay.
     pinched: Vec<bool>,
 }
@@ -64,93 +78,121 @@ impl Fan {
 /// The next corner of the same triangle.
 #[inline]
 pub(super) fn next(corner: u32) -> u32 {
-    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
+    if corner % 4 == 2 { corner - 2 } else { corner + 1 }
 }
 
 /// The corner before in the same triangle.
 #[inline]
 pub(super) fn previous(corner: u32) -> u32 {
-    if corner % 3 == 0 { corner + 2 } else { corner - 1 }
+    if corner % 4 == 0 { corner + 2 } else { corner - 1 }
 }
 
 impl Triangulation {
     /// Puts triangles together: conforming, counter-clockwise, no two over each other. Linear.
-    pub(super) fn new(vertices: Vec<Vertex>, triangles: &[[u32; 3]]) -> Self {
-        let corners = triangles.as_flattened().to_vec();
+    pub(super) fn new(mut vertices: Vec<Vertex>, triangles: &[[u32; 3]]) -> Self {
         // Corners by vertex, in compressed rows: each edge is found among the few that leave its other end.
+        let corners = || {
+            let numbered = triangles.iter().zip((0..).step_by(4));
+            numbered.flat_map(|(vertices, first)| vertices.iter().copied().zip(first..))
+        };
         let mut starts = vec![0u32; vertices.len() + 1];
-        corners.iter().for_each(|&vertex| starts[vertex as usize + 1] += 1);
+        corners().for_each(|(vertex, _)| starts[vertex as usize + 1] += 1);
         (1..starts.len()).for_each(|vertex| starts[vertex] += starts[vertex - 1]);
         let mut ends = starts.clone();
-        let mut leaving = vec![0u32; corners.len()];
-        for (corner, &vertex) in corners.iter().enumerate() {
-            leaving[ends[vertex as usize] as usize] = corner as u32;
+        let mut leaving = vec![0u32; 3 * triangles.len()];
+        for (vertex, corner) in corners() {
+            leaving[ends[vertex as usize] as usize] = corner;
             ends[vertex as usize] += 1;
         }
         let leaving = |vertex: u32| &leaving[starts[vertex as usize] as usize..ends[vertex as usize] as usize];
-        let to = |corner: u32| corners[next(corner) as usize];
-        let twin = |corner: u32| {
-            let from = corners[corner as usize];
-            leaving(to(corner)).iter().copied().find(|&other| to(other) == from).unwrap_or(NONE)
+        let end = |corner: u32| triangles[corner as usize / 4][next(corner) as usize % 4];
+        let twin = |from: u32, to: u32| {
+            leaving(to).iter().copied().find(|&other| end(other) == from).unwrap_or(NONE)
         };
-        let twins: Vec<u32> = (0..corners.len() as u32).map(twin).collect();
-        let names = 0..vertices.len() as u32;
-        let corner_of = names.clone().map(|vertex| leaving(vertex).first().copied().unwrap_or(NONE)).collect();
-        let counts: Vec<usize> = names.clone().map(|vertex| leaving(vertex).len()).collect();
-        let pinched = vec![false; vertices.len()];
-        let mut triangulation = Self { vertices, corners, twins, corner_of, pinched };
+        let together = |&vertices @ [a, b, c]: &[u32; 3]| Triangle {
+            vertices,
+            twins: [twin(a, b), twin(b, c), twin(c, a)],
+            error: 0.0,
+        };
+        let triangles = triangles.iter().map(together).collect();
+        for (vertex, name) in vertices.iter_mut().zip(0..) {
+            vertex.corner = leaving(name).first().copied().unwrap_or(NONE);
+        }
+        let mut triangulation = Self { pinched: vec![false; vertices.len()], vertices, triangles };
         let mut fan = Fan::default();
-        for vertex in names.filter(|&vertex| counts[vertex as usize] > 0) {
+        for vertex in (0..triangulation.vertices.len() as u32).filter(|&vertex| !leaving(vertex).is_empty()) {
             triangulation.gather(vertex, &mut fan);
-            triangulation.pinched[vertex as usize] = fan.spokes.len() != counts[vertex as usize];
+            triangulation.pinched[vertex as usize] = fan.spokes.len() != leaving(vertex).len();
         }
         triangulation
     }
 
-    /// How many triangles there were at first; some may be gone.
-    pub(super) fn triangle_slots(&self) -> usize {
-        self.corners.len() / 3
+    /// The triangles that are there.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = u32> {
+        (0..self.triangles.len() as u32).filter(|&triangle| self.has_triangle(triangle))
+    }
+
+    /// How many triangles there were at first: all numbers of triangles are below.
+    pub(super) fn triangle_slots(&self) -> u32 {
+        self.triangles.len() as u32
     }
 
     /// Whether a triangle is still there.
-    pub(super) fn has_triangle(&self, triangle: usize) -> bool {
-        self.corners[3 * triangle] != NONE
-    }
-
-    /// Whether the triangle of a corner is still there.
-    pub(super) fn has_corner(&self, corner: u32) -> bool {
-        self.corners[corner as usize] != NONE
+    pub(super) fn has_triangle(&self, triangle: u32) -> bool {
+        self.triangles[triangle as usize].vertices[0] != NONE
     }
 
     /// Whether a vertex has a triangle.
     pub(super) fn has_vertex(&self, vertex: u32) -> bool {
-        self.corner_of[vertex as usize] != NONE
+        self.vertices[vertex as usize].corner != NONE
     }
 
     /// The vertices of a triangle.
-    pub(super) fn names(&self, triangle: usize) -> [u32; 3] {
-        [0, 1, 2].map(|k| self.corners[3 * triangle + k])
+    pub(super) fn names(&self, triangle: u32) -> [u32; 3] {
+        self.triangles[triangle as usize].vertices
     }
 
     /// The vertices of a triangle, and which of its edges are on the rim.
-    pub(super) fn triangle(&self, triangle: usize) -> ([Vertex; 3], [bool; 3]) {
-        let rim = [0, 1, 2].map(|k| self.twins[3 * triangle + k] == NONE);
-        (self.names(triangle).map(|vertex| self.vertices[vertex as usize]), rim)
+    pub(super) fn triangle(&self, triangle: u32) -> ([Vertex; 3], [bool; 3]) {
+        let Triangle { vertices: [a, b, c], twins, .. } = self.triangles[triangle as usize];
+        ([self.vertex(a), self.vertex(b), self.vertex(c)], [twins[0] == NONE, twins[1] == NONE, twins[2] == NONE])
+    }
+
+    /// The error of a triangle, as it was last set.
+    pub(super) fn error(&self, triangle: u32) -> f64 {
+        self.triangles[triangle as usize].error
+    }
+
+    /// Remembers the error of a triangle.
+    pub(super) fn set_error(&mut self, triangle: u32, error: f64) {
+        self.triangles[triangle as usize].error = error;
+    }
+
+    pub(super) fn vertex(&self, name: u32) -> Vertex {
+        self.vertices[name as usize]
+    }
+
+    fn twin_or_none(&self, corner: u32) -> u32 {
+        self.triangles[corner as usize / 4].twins[corner as usize % 4]
     }
 
     /// The other half of an edge.
     pub(super) fn twin(&self, corner: u32) -> Option<u32> {
-        Some(self.twins[corner as usize]).filter(|&twin| twin != NONE)
+        Some(self.twin_or_none(corner)).filter(|&twin| twin != NONE)
     }
 
     /// Whether an edge is on the rim.
     pub(super) fn is_rim(&self, corner: u32) -> bool {
-        self.twins[corner as usize] == NONE
+        self.twin_or_none(corner) == NONE
     }
 
     /// The vertex at a corner.
     pub(super) fn name(&self, corner: u32) -> u32 {
-        self.corners[corner as usize]
+        self.triangles[corner as usize / 4].vertices[corner as usize % 4]
+    }
+
+    fn set_name(&mut self, corner: u32, vertex: u32) {
+        self.triangles[corner as usize / 4].vertices[corner as usize % 4] = vertex;
     }
 
     fn place(&self, vertex: u32) -> Place {
@@ -161,7 +203,7 @@ impl Triangulation {
     pub(super) fn gather(&self, vertex: u32, fan: &mut Fan) {
         fan.spokes.clear();
         fan.ring.clear();
-        let first = self.corner_of[vertex as usize];
+        let first = self.vertices[vertex as usize].corner;
         let mut start = first;
         while let Some(twin) = self.twin(start) {
             start = next(twin);
@@ -216,40 +258,36 @@ impl Triangulation {
     pub(super) fn collapse(&mut self, vertex: u32, fan: &Fan, target: usize) {
         let goal = fan.ring[target];
         let (before, after) = fan.vanishing(target);
-        for spoke in fan.staying(target) {
-            self.corners[fan.spokes[spoke] as usize] = goal;
-            self.corner_of[goal as usize] = fan.spokes[spoke];
+        for spoke in fan.staying(target).map(|spoke| fan.spokes[spoke]) {
+            self.set_name(spoke, goal);
+            self.vertices[goal as usize].corner = spoke;
         }
         // What lay beyond a vanishing triangle now lies beyond the one that stays next to it.
-        if let Some(after) = after {
-            let spoke = fan.spokes[after];
-            let side = self.twins[previous(spoke) as usize];
-            self.remove(spoke, next(spoke), side, next(side));
+        if let Some(spoke) = after.map(|after| fan.spokes[after]) {
+            let inner = self.twin_or_none(previous(spoke));
+            self.remove(spoke, inner, next(inner));
         }
-        if let Some(before) = before {
-            let spoke = fan.spokes[before];
-            let side = self.twins[spoke as usize];
-            self.remove(spoke, next(spoke), side, side);
+        if let Some(spoke) = before.map(|before| fan.spokes[before]) {
+            let inner = self.twin_or_none(spoke);
+            self.remove(spoke, inner, inner);
         }
-        self.corner_of[vertex as usize] = NONE;
+        self.vertices[vertex as usize].corner = NONE;
     }
 
-    /// Takes the triangle of a corner away; the half `inner` of an edge takes the place of its `outer` one, and
-    /// the third vertex of the triangle is left with `corner`.
-    fn remove(&mut self, spoke: u32, outer: u32, inner: u32, corner: u32) {
-        self.link(inner, self.twins[outer as usize]);
-        let third = self.corners[corner as usize];
-        self.corner_of[third as usize] = corner;
-        for corner in [spoke, next(spoke), previous(spoke)] {
-            self.corners[corner as usize] = NONE;
-        }
+    /// Takes the triangle of a spoke away. Across the edge opposite of it there is `inner` now, half of an edge of
+    /// the triangle that stays next to it; of the vertex that both have, `corner` stays.
+    fn remove(&mut self, spoke: u32, inner: u32, corner: u32) {
+        self.link(inner, self.twin_or_none(next(spoke)));
+        let shared = self.name(corner);
+        self.vertices[shared as usize].corner = corner;
+        self.triangles[spoke as usize / 4].vertices = [NONE; 3];
     }
 
     /// Makes two halves one edge; `half` is on the rim if there is no other.
     fn link(&mut self, half: u32, other: u32) {
-        self.twins[half as usize] = other;
+        self.triangles[half as usize / 4].twins[half as usize % 4] = other;
         if other != NONE {
-            self.twins[other as usize] = half;
+            self.triangles[other as usize / 4].twins[other as usize % 4] = half;
         }
     }
 
@@ -265,17 +303,17 @@ impl Triangulation {
 
     /// The four edges around the two triangles of an edge, each from one to the next of [`Triangulation::quad`].
     pub(super) fn quad_edges(&self, corner: u32) -> [u32; 4] {
-        let twin = self.twins[corner as usize];
+        let twin = self.twin_or_none(corner);
         [previous(corner), next(twin), previous(twin), next(corner)]
     }
 
     /// Replaces an edge by the other diagonal of its quad. The triangle of `corner` becomes the first, third and
     /// fourth vertex of the quad, that of its twin the first three.
     pub(super) fn flip(&mut self, corner: u32) {
-        let twin = self.twins[corner as usize];
+        let twin = self.twin_or_none(corner);
         let edges = self.quad_edges(corner);
-        let [ab, bc, cd, da] = edges.map(|edge| self.twins[edge as usize]);
-        let [a, b, c, d] = edges.map(|edge| self.corners[edge as usize]);
+        let [ab, bc, cd, da] = edges.map(|edge| self.twin_or_none(edge));
+        let [a, b, c, d] = edges.map(|edge| self.name(edge));
         let places = [
             (corner, a, twin),
             (next(corner), c, cd),
@@ -285,8 +323,8 @@ impl Triangulation {
             (previous(twin), b, bc),
         ];
         for (half, vertex, other) in places {
-            self.corners[half as usize] = vertex;
-            self.corner_of[vertex as usize] = half;
+            self.set_name(half, vertex);
+            self.vertices[vertex as usize].corner = half;
             self.link(half, other);
         }
     }
@@ -299,9 +337,8 @@ impl Triangulation {
             *name = vertices.len() as u32;
             vertices.push(self.vertices[vertex]);
         }
-        let standing = (0..self.triangle_slots()).filter(|&triangle| self.has_triangle(triangle));
-        let triangles =
-            standing.map(|triangle| self.names(triangle).map(|vertex| names[vertex as usize])).collect();
+        let renamed = |triangle| self.names(triangle).map(|vertex| names[vertex as usize]);
+        let triangles = self.triangles().map(renamed).collect();
         (vertices, triangles)
     }
 }
