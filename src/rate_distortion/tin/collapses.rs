@@ -116,9 +116,8 @@ impl Collapses<'_, '_> {
         self.states[vertex as usize] = State::Out;
         changed.clear();
         changed.extend_from_slice(&fan.ring);
-        for spoke in fan.staying(target).map(|spoke| fan.spokes[spoke]) {
-            [spoke, next(spoke), previous(spoke)].map(|edge| edges.add(edge));
-        }
+        let staying = fan.staying(target).map(|spoke| fan.spokes[spoke]);
+        edges.add(staying.flat_map(|spoke| [spoke, next(spoke), previous(spoke)]));
         edges.settle(surface, |quad| changed.extend(quad));
         for changed in std::mem::take(&mut self.changed) {
             match self.states[changed as usize] {

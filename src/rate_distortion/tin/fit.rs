@@ -39,7 +39,7 @@ impl Equations {
         let (mut own, mut right) = (vec![0.0; count], vec![0.0; count]);
         for (index, vertex) in mesh.vertices.iter().enumerate() {
             if mesh.has_vertex(index as u32) {
-                let (height, weight) = samples.at(vertex.place[0], vertex.place[1]);
+                let (height, weight) = samples.at(vertex.place);
                 own[index] = weight;
                 right[index] = weight * (height - f64::from(vertex.height));
             }
@@ -53,8 +53,7 @@ impl Equations {
             let heights = corners.map(|vertex| f64::from(vertex.height));
             let reciprocal = 1.0 / twice_area([a, b, c]) as f64;
             let mut products = Products { names, squares: [0.0; 3], mixed: [0.0; 3] };
-            samples.visit(corners, rim, |column, row, height, weight| {
-                let here = [column, row];
+            samples.visit(corners, rim, |here, height, weight| {
                 let second = twice_area([here, c, a]) as f64 * reciprocal;
                 let third = twice_area([here, a, b]) as f64 * reciprocal;
                 let hats = [1.0 - second - third, second, third];
@@ -134,7 +133,8 @@ pub(super) fn fit(
     }
     for (vertex, added) in mesh.vertices.iter_mut().zip(added) {
         // Of heights near the limits of their type the best may lie beyond.
-        vertex.height = (f64::from(vertex.height) + added).clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+        vertex.height =
+            (f64::from(vertex.height) + added).clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
     }
     Ok(())
 }

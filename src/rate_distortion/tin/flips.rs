@@ -14,9 +14,9 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Looks at an edge next.
-    pub(super) fn add(&mut self, corner: u32) {
-        self.waiting.push(corner);
+    /// Looks at these next, the last first.
+    pub(super) fn add(&mut self, edges: impl IntoIterator<Item = u32>) {
+        self.waiting.extend(edges);
     }
 
     /// Flips what can be flipped with a gain, and then looks at the edges around it, until there is nothing left.
@@ -49,7 +49,7 @@ pub(super) fn settle_all(
             monitor.report(report(triangle as f32 / slots as f32))?;
         }
         if surface.mesh.has_triangle(triangle) {
-            (4 * triangle..4 * triangle + 3).for_each(|corner| edges.add(corner));
+            edges.add(4 * triangle..4 * triangle + 3);
             edges.settle(surface, |_| ());
         }
     }

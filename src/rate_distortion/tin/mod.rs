@@ -6,18 +6,23 @@
 //!
 //! 1. edges are flipped while that lowers the squared error ([`flips`]);
 //! 2. vertices are taken away, the cheapest first, edges around each flipped ([`collapses`]);
-//! 3. edges are flipped until nothing is left to gain;
+//! 3. vertices move to samples next to theirs while that lowers the error, edges around each flipped ([`moves`]);
 //! 4. where wished for, the heights are fitted by least squares ([`fit`]).
 //!
 //! All of this is about vertical distances at samples, weighted by their importance; the spacing of the grid
-//! plays no part. The paper that the hierarchy is from (see [`super`]) has nothing of the kind; the hybrid of
-//! hierarchy and free triangulation is decimesh's own.
+//! plays no part. The paper that the hierarchy is after has nothing of the kind: this hybrid of hierarchy and free
+//! triangulation is decimesh's own. Beginning with twice as many vertices as asked for is good: three times as many
+//! gain another 0.3 dB in half as much time again.
 
 mod collapses;
 mod fit;
 mod flips;
+mod moves;
+mod order;
 mod residual;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod triangulation;
 
 use super::error::Error;
@@ -63,11 +68,12 @@ pub fn reduce(
         let height = field.heights()[row as usize * field.columns() + column as usize];
         Vertex::new([column as i32, row as i32], height)
     };
-    let mesh = Triangulation::new(vertices.iter().map(at).collect(), triangles);
+    let (vertices, triangles) = order::arrange(vertices, triangles);
+    let mesh = Triangulation::new(vertices.iter().map(at).collect(), &triangles);
     let mut surface = Surface::new(mesh, Samples::new(field));
-    flips::settle_all(&mut surface, monitor, |part| 0.1 * part)?;
-    collapses::collapse_to(&mut surface, target, monitor, |part| 0.1 + 0.7 * part)?;
-    flips::settle_all(&mut surface, monitor, |part| 0.8 + 0.1 * part)?;
+    flips::settle_all(&mut surface, monitor, |part| 0.15 * part)?;
+    collapses::collapse_to(&mut surface, target, monitor, |part| 0.15 + 0.5 * part)?;
+    moves::improve(&mut surface, monitor, |part| 0.65 + 0.25 * part)?;
     let Surface { mut mesh, samples, .. } = surface;
     let sampled = tin(field, mesh.clone());
     if !least_squares {

@@ -2,7 +2,7 @@
 
 use super::triangulation::Vertex;
 use crate::rate_distortion::height_field::HeightField;
-use crate::rate_distortion::raster::Rows;
+use crate::rate_distortion::raster::{Place, Rows};
 use crate::rate_distortion::vertical::Plane;
 use std::borrow::Cow;
 
@@ -28,11 +28,19 @@ impl<'a> Samples<'a> {
         Self { columns, heights: heights.into(), weights: Some(weights.into()) }
     }
 
+    fn number(&self, [column, row]: Place) -> usize {
+        row as usize * self.columns + column as usize
+    }
+
+    /// The height of a sample that is not void.
+    pub(super) fn height(&self, place: Place) -> f32 {
+        self.heights[self.number(place)]
+    }
+
     /// The height and the weight of a sample.
-    pub(super) fn at(&self, column: i32, row: i32) -> (f64, f64) {
-        let sample = row as usize * self.columns + column as usize;
-        let weight = self.weights.as_ref().map_or(1.0, |weights| f64::from(weights[sample]));
-        (f64::from(self.heights[sample]), weight)
+    pub(super) fn at(&self, place: Place) -> (f64, f64) {
+        let weight = self.weights.as_ref().map_or(1.0, |weights| f64::from(weights[self.number(place)]));
+        (f64::from(self.height(place)), weight)
     }
 
     /// The weighted sum of squared vertical distances between a triangle and the samples that it owns.
@@ -65,12 +73,12 @@ impl<'a> Samples<'a> {
         sum
     }
 
-    /// Calls `visit` with each sample that a triangle owns: column, row, height and weight.
-    pub(super) fn visit(&self, corners: [Vertex; 3], rim: [bool; 3], mut visit: impl FnMut(i32, i32, f64, f64)) {
+    /// Calls `visit` with each sample that a triangle owns: its place, height and weight.
+    pub(super) fn visit(&self, corners: [Vertex; 3], rim: [bool; 3], mut visit: impl FnMut(Place, f64, f64)) {
         for (row, columns) in Rows::of(corners.map(|vertex| vertex.place), rim) {
-            for column in columns {
-                let (height, weight) = self.at(column, row);
-                visit(column, row, height, weight);
+            for place in columns.map(|column| [column, row]) {
+                let (height, weight) = self.at(place);
+                visit(place, height, weight);
             }
         }
     }

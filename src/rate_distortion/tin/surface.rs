@@ -2,6 +2,7 @@
 
 use super::residual::Samples;
 use super::triangulation::{Fan, Triangulation, Vertex, next};
+use crate::rate_distortion::raster::Place;
 
 /// A triangulation that knows its error.
 pub(super) struct Surface<'a> {
@@ -9,8 +10,8 @@ pub(super) struct Surface<'a> {
     pub(super) samples: Samples<'a>,
 }
 
-/// By which part an error must fall for a flip: by more than sums of it may be off, or edges would be flipped to
-/// and fro.
+/// By which part an error must fall for a change to be made: by more than sums of it may be off, or it would be made
+/// and unmade for ever.
 const LEAST_GAIN: f64 = 1e-9;
 
 impl<'a> Surface<'a> {
@@ -41,8 +42,12 @@ impl<'a> Surface<'a> {
             }
             best = Some((error, target));
         });
-        let before: f64 = fan.spokes.iter().map(|&spoke| self.mesh.error(spoke / 4)).sum();
-        best.map(|(error, target)| (error - before, target))
+        best.map(|(error, target)| (error - self.error_around(fan), target))
+    }
+
+    /// The error of the triangles of a fan.
+    fn error_around(&self, fan: &Fan) -> f64 {
+        fan.spokes.iter().map(|&spoke| self.mesh.error(spoke / 4)).sum()
     }
 
     /// The triangle that one of a fan becomes when the vertex goes to a neighbour, and which of its edges are on
@@ -52,9 +57,8 @@ impl<'a> Surface<'a> {
         let is_rim = |spoke: usize| self.mesh.is_rim(next(fan.spokes[spoke]));
         // The new edges are inner ones, but for those to the target's neighbours on the ring, which stood before,
         // and for the one that takes the place of the rim in an open fan.
-        let on_rim = |from: usize, to: usize| {
-            fan.after(from) == to && (from == fan.spokes.len() || is_rim(from))
-        };
+        let on_rim =
+            |from: usize, to: usize| fan.after(from) == to && (from == fan.spokes.len() || is_rim(from));
         (vertices, [on_rim(target, spoke), is_rim(spoke), on_rim(fan.after(spoke), target)])
     }
 
@@ -62,6 +66,44 @@ impl<'a> Surface<'a> {
     pub(super) fn collapse(&mut self, vertex: u32, fan: &Fan, target: usize) {
         self.mesh.collapse(vertex, fan, target);
         fan.staying(target).for_each(|spoke| self.update(fan.spokes[spoke] / 4));
+    }
+
+    /// The sample next to that of the vertex of a fan to which it had better move: the one where the error over its
+    /// triangles is least, the first of equals. `None` if it is best where it is or cannot move. It moves to no
+    /// sample of weight 0, which may be void.
+    pub(super) fn better_sample(&self, vertex: u32, fan: &Fan) -> Option<Place> {
+        if !self.mesh.may_move(vertex, fan) {
+            return None;
+        }
+        let mut limit = self.error_around(fan) * (1.0 - LEAST_GAIN);
+        let [column, row] = self.mesh.vertex(vertex).place;
+        let mut best = None;
+        for (across, down) in [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)] {
+            let place = [column + across, row + down];
+            if !self.mesh.sees(place, fan, 0..fan.spokes.len()) || self.samples.at(place).1 == 0.0 {
+                continue;
+            }
+            let moved = Vertex::new(place, self.samples.height(place));
+            let mut error = 0.0;
+            for (spoke, &corner) in fan.spokes.iter().enumerate() {
+                let [from, to] = fan.edge(spoke).map(|name| self.mesh.vertex(name));
+                let rim = [false, self.mesh.is_rim(next(corner)), false];
+                error += self.samples.squared_error([moved, from, to], rim);
+                if error >= limit {
+                    break;
+                }
+            }
+            if error < limit {
+                (limit, best) = (error, Some(place));
+            }
+        }
+        best
+    }
+
+    /// Moves the vertex of a fan to another sample.
+    pub(super) fn move_to(&mut self, vertex: u32, fan: &Fan, place: Place) {
+        self.mesh.move_to(vertex, place, self.samples.height(place));
+        fan.spokes.iter().for_each(|spoke| self.update(spoke / 4));
     }
 
     /// Flips an edge if that makes the error less; says whether it did.

@@ -61,10 +61,16 @@ impl Fan {
         if index + 1 == self.ring.len() { 0 } else { index + 1 }
     }
 
+    /// The edge of the ring in the triangle of a spoke.
+    pub(super) fn edge(&self, spoke: usize) -> [u32; 2] {
+        [self.ring[spoke], self.ring[self.after(spoke)]]
+    }
+
     /// The spokes of the triangles that vanish when the vertex goes to a neighbour: the one before it and the
     /// one after, of which an open fan may have one only.
     fn vanishing(&self, target: usize) -> (Option<usize>, Option<usize>) {
-        let before = if target > 0 { Some(target - 1) } else { self.is_closed().then(|| self.spokes.len() - 1) };
+        let before =
+            if target > 0 { Some(target - 1) } else { self.is_closed().then(|| self.spokes.len() - 1) };
         (before, (target < self.spokes.len()).then_some(target))
     }
 
@@ -104,7 +110,8 @@ impl Triangulation {
             leaving[ends[vertex as usize] as usize] = corner;
             ends[vertex as usize] += 1;
         }
-        let leaving = |vertex: u32| &leaving[starts[vertex as usize] as usize..ends[vertex as usize] as usize];
+        let leaving =
+            |vertex: u32| &leaving[starts[vertex as usize] as usize..ends[vertex as usize] as usize];
         let end = |corner: u32| triangles[corner as usize / 4][next(corner) as usize % 4];
         let twin = |from: u32, to: u32| {
             leaving(to).iter().copied().find(|&other| end(other) == from).unwrap_or(NONE)
@@ -155,7 +162,10 @@ impl Triangulation {
     /// The vertices of a triangle, and which of its edges are on the rim.
     pub(super) fn triangle(&self, triangle: u32) -> ([Vertex; 3], [bool; 3]) {
         let Triangle { vertices: [a, b, c], twins, .. } = self.triangles[triangle as usize];
-        ([self.vertex(a), self.vertex(b), self.vertex(c)], [twins[0] == NONE, twins[1] == NONE, twins[2] == NONE])
+        (
+            [self.vertex(a), self.vertex(b), self.vertex(c)],
+            [twins[0] == NONE, twins[1] == NONE, twins[2] == NONE],
+        )
     }
 
     /// The error of a triangle, as it was last set.
@@ -199,6 +209,17 @@ impl Triangulation {
         self.vertices[vertex as usize].place
     }
 
+    /// Whether the vertex of a fan is not on the rim.
+    pub(super) fn may_move(&self, vertex: u32, fan: &Fan) -> bool {
+        fan.is_closed() && !self.pinched[vertex as usize]
+    }
+
+    /// Moves a vertex, to where it [sees](Triangulation::sees) all of its ring.
+    pub(super) fn move_to(&mut self, vertex: u32, place: Place, height: f32) {
+        let vertex = &mut self.vertices[vertex as usize];
+        (vertex.place, vertex.height) = (place, height);
+    }
+
     /// Collects what is around a vertex that has triangles; of a pinched one, a fan only.
     pub(super) fn gather(&self, vertex: u32, fan: &mut Fan) {
         fan.spokes.clear();
@@ -230,19 +251,13 @@ impl Triangulation {
     /// turn over or become flat, and the rim stays where it is.
     ///
     /// That is enough for the triangulation to stay one: what comes out covers just what the fan did.
-    pub(super) fn targets(&self, vertex: u32, fan: &Fan, mut consider: impl FnMut(usize)) {
+    pub(super) fn targets(&self, vertex: u32, fan: &Fan, consider: impl FnMut(usize)) {
         if self.pinched[vertex as usize] {
             return;
         }
-        let keeps_shape = |target: usize| {
-            let goal = self.place(fan.ring[target]);
-            fan.staying(target).all(|spoke| {
-                let ends = [fan.ring[spoke], fan.ring[fan.after(spoke)]].map(|end| self.place(end));
-                twice_area([goal, ends[0], ends[1]]) > 0
-            })
-        };
+        let keeps_shape = |&target: &usize| self.sees(self.place(fan.ring[target]), fan, fan.staying(target));
         if fan.is_closed() {
-            (0..fan.ring.len()).filter(|&target| keeps_shape(target)).for_each(consider);
+            (0..fan.ring.len()).filter(keeps_shape).for_each(consider);
             return;
         }
         let last = fan.ring.len() - 1;
@@ -250,8 +265,16 @@ impl Triangulation {
         let between = self.place(vertex);
         let towards = |axis: usize| i64::from(a[axis] - between[axis]) * i64::from(b[axis] - between[axis]);
         if twice_area([a, between, b]) == 0 && towards(0) + towards(1) < 0 {
-            [0, last].into_iter().filter(|&target| keeps_shape(target)).for_each(&mut consider);
+            [0, last].into_iter().filter(keeps_shape).for_each(consider);
         }
+    }
+
+    /// Whether triangles from a place to the edges of the ring at these spokes are counter-clockwise and have areas.
+    pub(super) fn sees(&self, from: Place, fan: &Fan, mut spokes: impl Iterator<Item = usize>) -> bool {
+        spokes.all(|spoke| {
+            let [start, end] = fan.edge(spoke).map(|name| self.place(name));
+            twice_area([from, start, end]) > 0
+        })
     }
 
     /// Lets the vertex of a fan go to a neighbour that [`Triangulation::targets`] allows.
@@ -333,7 +356,9 @@ impl Triangulation {
     pub(super) fn into_parts(self) -> (Vec<Vertex>, Vec<[u32; 3]>) {
         let mut names = vec![NONE; self.vertices.len()];
         let mut vertices = Vec::new();
-        for (vertex, name) in names.iter_mut().enumerate().filter(|&(vertex, _)| self.has_vertex(vertex as u32)) {
+        for (vertex, name) in
+            names.iter_mut().enumerate().filter(|&(vertex, _)| self.has_vertex(vertex as u32))
+        {
             *name = vertices.len() as u32;
             vertices.push(self.vertices[vertex]);
         }
