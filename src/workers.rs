@@ -66,6 +66,15 @@ impl Workers {
         [first, second]
     }
 
+    /// Sorts `items`; equal ones must be the same, so that it does not matter which comes first.
+    pub(crate) fn sort<T: Ord + Send>(&self, items: &mut [T]) {
+        match self {
+            Self::Caller => items.sort_unstable(),
+            Self::Global => items.par_sort_unstable(),
+            Self::Pool(pool) => pool.install(|| items.par_sort_unstable()),
+        }
+    }
+
     /// How many threads there are.
     pub(crate) fn count(&self) -> usize {
         match self {

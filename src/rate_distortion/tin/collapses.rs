@@ -119,13 +119,15 @@ impl Collapses<'_, '_> {
         let staying = fan.staying(target).map(|spoke| fan.spokes[spoke]);
         edges.add(staying.flat_map(|spoke| [spoke, next(spoke), previous(spoke)]));
         edges.settle(surface, |quad| changed.extend(quad));
-        for changed in std::mem::take(&mut self.changed) {
-            match self.states[changed as usize] {
+        let changed = std::mem::take(&mut self.changed);
+        for &vertex in &changed {
+            match self.states[vertex as usize] {
                 // It may have become able to go; there is no cost to wait for.
-                State::Out => self.look_at(changed),
-                State::Known | State::Outdated => self.states[changed as usize] = State::Outdated,
+                State::Out => self.look_at(vertex),
+                State::Known | State::Outdated => self.states[vertex as usize] = State::Outdated,
             }
         }
+        self.changed = changed;
     }
 }
 
