@@ -26,6 +26,7 @@ mod rate;
 mod read;
 mod removals;
 pub mod tiles;
+pub mod tin;
 pub mod vertical;
 
 #[cfg(test)]
