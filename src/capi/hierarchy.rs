@@ -231,7 +231,7 @@ pub unsafe extern "C" fn decimesh_hierarchy_report_init(
 /// _EMPTY (fewer than two columns or rows, or all void), _OVERFLOW, _NOT_FINITE (the text says where), _OPTION,
 /// _STRUCT_SIZE, _UNKNOWN_OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
-/// About 0.1 s for a million samples, and 24 bytes of memory a sample, and up to half as much again for a grid that
+/// About 0.1 s for a million samples; 24 bytes of memory a sample and two million, and up to half as much again for a grid that
 /// is not of 2^d + 1 columns and rows or has voids; the hierarchy keeps 16. Any thread; progress is told on the
 /// calling one.
 #[unsafe(no_mangle)]

@@ -355,6 +355,11 @@ impl Certificate {
         Self { sums }
     }
 
+    /// Nothing is known: what is least may be 0.
+    pub(crate) fn none() -> Self {
+        Self { sums: Vec::new() }
+    }
+
     /// How many slopes there are.
     fn count(&self) -> u64 {
         self.sums.last().map_or(0, |&(count, _)| count)
@@ -368,7 +373,7 @@ impl Certificate {
             Some(before) => self.sums[before],
             None => (0, 0.0),
         };
-        if whole == removed || class == self.sums.len() {
+        if whole == removed || class >= self.sums.len() {
             return sum;
         }
         sum + (removed - whole) as f64 * f64::from(of_rank((class as u32) << (32 - CLASS_BITS)))

@@ -21,10 +21,12 @@ mod merging;
 pub mod polyline;
 mod priority;
 mod raster;
+mod rate;
 #[cfg(feature = "io")]
 mod read;
 mod removals;
 pub mod tiles;
+pub mod tin;
 pub mod vertical;
 
 #[cfg(test)]

@@ -21,6 +21,13 @@ pub(crate) struct TerrainArguments {
     pub(crate) detail: DetailArguments,
     #[command(flatten)]
     pub(crate) heights: HeightArguments,
+    /// Leave the hierarchy: triangles of any shape, which for as many vertices are closer to the heights. For
+    /// --vertices and --ratio; takes longer.
+    #[arg(long)]
+    pub(crate) tin: bool,
+    /// With --tin: fit the heights of the vertices by least squares. They are then between those of samples.
+    #[arg(long, requires = "tin")]
+    pub(crate) least_squares: bool,
     /// Draw what signal-to-noise ratio comes of how many vertices, by this and by simpler methods, as a PNG.
     #[arg(long, value_name = "CURVE.png")]
     pub(crate) plot: Option<PathBuf>,

@@ -6,7 +6,7 @@ use decimesh::rate_distortion::Decomposition;
 
 use super::arguments::ExtractArguments;
 use super::report::TerrainReport;
-use super::{tell, write_mesh};
+use super::{Terrain, tell, write_mesh};
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
 use crate::files::{check_directory, check_output};
@@ -19,18 +19,13 @@ pub(crate) fn run(arguments: &ExtractArguments) -> Result<(), Failure> {
     let begin = Instant::now();
     let (result, peak_bytes) = peak_bytes(|| -> Result<_, Failure> {
         let decomposition = Decomposition::read(input).map_err(Failure::Read)?;
-        let approximation = decomposition.at(detail.detail())?;
-        Ok((decomposition, approximation))
+        let terrain = Terrain::of(&decomposition, decomposition.at(detail.detail())?);
+        Ok((decomposition, terrain))
     });
     let seconds = begin.elapsed().as_secs_f64();
-    let (decomposition, approximation) = result?;
+    let (decomposition, terrain) = result?;
 
-    let seconds_write = write_mesh(&approximation, output, common)?;
-    let report = TerrainReport {
-        seconds,
-        seconds_write,
-        peak_bytes,
-        ..TerrainReport::of(&decomposition, &approximation)
-    };
+    let seconds_write = write_mesh(&terrain.mesh, output, common)?;
+    let report = TerrainReport { seconds, seconds_write, peak_bytes, ..terrain.report(&decomposition) };
     tell(&report, common)
 }

@@ -1,6 +1,6 @@
 //! What is said about terrain.
 
-use decimesh::rate_distortion::{Approximation, Decomposition, HeightField};
+use decimesh::rate_distortion::{HeightField, VerticalError};
 use serde::Serialize;
 
 use crate::report::{grouped, significant};
@@ -16,9 +16,10 @@ pub(crate) struct TerrainReport {
     pub(crate) triangles_out: usize,
     #[serde(flatten)]
     pub(crate) error: MeasuredError,
-    /// How far the squared error can be above that of the best conforming mesh of as many vertices.
-    pub(crate) certified_gap_db: f64,
-    /// Of decomposing, or of reading a hierarchy, and of taking the mesh from it.
+    /// How far the squared error can be above that of the best conforming mesh of as many vertices; null for
+    /// --tin, whose meshes are others.
+    pub(crate) certified_gap_db: Option<f64>,
+    /// Of decomposing, or of reading a hierarchy, of taking the mesh from it, and of measuring the error.
     pub(crate) seconds: f64,
     /// Of reading the heights.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,10 +54,9 @@ pub(crate) struct DecomposeReport {
 }
 
 impl MeasuredError {
-    pub(crate) fn of(decomposition: &Decomposition, approximation: &Approximation) -> Self {
-        let error = decomposition.measure(approximation);
+    pub(crate) fn new(field: &HeightField, error: VerticalError) -> Self {
         let rms = error.rms();
-        Self { rms, max: error.maximum, psnr_db: psnr(decomposition.field(), rms) }
+        Self { rms, max: error.maximum, psnr_db: psnr(field, rms) }
     }
 }
 
@@ -68,15 +68,16 @@ pub(crate) fn psnr(field: &HeightField, rms: f64) -> f64 {
 
 pub(crate) fn summary(report: &TerrainReport) -> String {
     let TerrainReport { samples, vertices_out, triangles_out, error, seconds, .. } = *report;
+    let gap = report.certified_gap_db.map_or_else(String::new, |gap| {
+        format!(", at most {} dB above the best conforming mesh", significant(gap))
+    });
     format!(
-        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({:.1} dB), at most {} dB above the \
-         best conforming mesh\n",
+        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({:.1} dB){gap}\n",
         grouped(samples),
         grouped(vertices_out),
         grouped(triangles_out),
         significant(error.rms),
         significant(error.max),
         error.psnr_db,
-        significant(report.certified_gap_db),
     )
 }

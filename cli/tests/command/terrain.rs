@@ -149,6 +149,21 @@ fn hierarchies_give_what_terrain_gives() {
 }
 
 #[test]
+fn free_triangles_are_closer() {
+    let bench = bench();
+    let error = |line: &str| {
+        bench.run_well(&format!("terrain hills.npy out.ply --vertices 400 --report report.json {line}"));
+        let (report, mesh) = (bench.json("report.json"), bench.read("out.ply"));
+        assert!(mesh.positions().len() <= 400 && mesh.attributes().uvs.is_some());
+        assert!((number(&report, "max") - largest_error(&mesh, [1.0; 2])).abs() < 1e-3);
+        number(&report, "rms")
+    };
+    let (nested, free, fitted) = (error(""), error("--tin"), error("--tin --least-squares"));
+    assert!(fitted < free && free < nested, "{nested} {free} {fitted}");
+    assert!(bench.json("report.json")["certified_gap_db"].is_null());
+}
+
+#[test]
 fn curves_are_drawn() {
     let bench = bench();
     bench.run_well("terrain hills.npy out.ply --ratio 0.1 --plot curve.png");
@@ -190,6 +205,9 @@ fn failures_have_their_codes_and_change_nothing() {
     bench.run_badly("terrain hills.npy out.ply --ratio 1 --spacing 0", 5, "must be positive and finite");
     bench.run_badly("terrain thin.f32 out.ply --ratio 1 --size 5x1", 5, "two of each are the least");
     bench.run_badly("terrain thin.f32 out.ply --ratio 1 --size 5x1 --no-data 0", 5, "thin.f32");
+    bench.run_badly("terrain hills.npy out.ply --rms 1 --tin", 5, "--tin is for --vertices and --ratio");
+    bench.run_badly("terrain hills.npy out.ply --ratio 2 --tin", 5, "ratio 2 is not allowed");
+    bench.run_badly("terrain hills.npy out.ply --ratio 1 --least-squares", 2, "--tin");
     bench.run_badly("decompose hills.npy nowhere/out.drd", 4, "nowhere/out.drd");
     bench.run_badly("extract hills.npy out.ply --ratio 1", 3, "this is no hierarchy file");
     bench.run_badly("extract missing.drd out.ply --ratio 1", 3, "cannot read missing.drd");
