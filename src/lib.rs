@@ -23,7 +23,7 @@
 //! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
 //! | 2 | `deviation` | the measured and the bounded distance between two surfaces (feature `deviation`) |
-//! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files (feature `io`) |
+//! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files; heights in PNG, TIFF, NumPy and raw files (feature `io`) |
 //! | 1 | [`mesh`] | the triangle mesh, its topology, statistics, welding, checking, and shapes to try things on |
 //! | 1 | `quadric` | sums of squared distances to planes, and their minimum |
 //! | 1 | `random` | numbers that look random and are the same everywhere |

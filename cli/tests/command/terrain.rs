@@ -127,6 +127,9 @@ fn voids_have_no_triangles() {
     let samples = count(&bench.json("report.json"), "samples");
     assert!(samples < COLUMNS * ROWS);
     assert!(bench.read("out.ply").positions().iter().all(|&[_, _, z]| z != void));
+    let outcome = bench.run(&format!("terrain hills.npy out.ply --vertices 5 --no-data {void:?} --quiet"));
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(0), ""));
+    assert!(outcome.stderr.contains("more than asked for: with fewer, triangles would lie over voids"));
 }
 
 #[test]
