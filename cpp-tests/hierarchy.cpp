@@ -142,6 +142,33 @@ TEST_CASE("hierarchy: what is no field is an error that says why") {
     CHECK(mesh == nullptr);
 }
 
+TEST_CASE("hierarchy: a free triangulation is closer") {
+    const Hierarchy hierarchy = Hierarchy::build(hills(129, 129), 129);
+    const Taken nested = hierarchy.at(Detail::vertices(800));
+    const Taken free = hierarchy.tin(800);
+    CHECK(free.mesh.vertex_count() <= 800);
+    CHECK(free.rms < nested.rms);
+    const Taken fitted = hierarchy.tin(800, true);
+    CHECK(fitted.rms < free.rms);
+    CHECK(fitted.mesh.statistics().boundary_loops == 1);
+    int calls = 0;
+    CHECK_THROWS_AS(hierarchy.tin(800, true, [&](float) { return ++calls < 2; }), decimesh::Cancelled);
+}
+
+TEST_CASE("hierarchy: a file holds all of it") {
+    const checks::TemporaryDirectory directory;
+    const std::string path = directory / "hills.drd";
+    const Hierarchy hierarchy = Hierarchy::build(hills(50, 70), 50);
+    hierarchy.write(path);
+    const Hierarchy read = Hierarchy::read(path);
+    CHECK(read.samples() == hierarchy.samples());
+    const Taken one = hierarchy.at(Detail::ratio(0.2));
+    const Taken other = read.at(Detail::ratio(0.2));
+    CHECK(one.rms == other.rms);
+    CHECK(std::equal(one.mesh.triangles().begin(), one.mesh.triangles().end(), other.mesh.triangles().begin()));
+    CHECK_THROWS_AS(Hierarchy::read(directory / "none.drd"), decimesh::Error);
+}
+
 TEST_CASE("hierarchy: progress ends it") {
     HierarchyOptions options;
     int calls = 0;
