@@ -311,6 +311,9 @@ pub(crate) struct Class {
 
 #[cfg(feature = "io")]
 impl Certificate {
+    /// How many classes there are.
+    pub(crate) const CLASSES: u32 = 1 << CLASS_BITS;
+
     /// The classes that slopes are in, in their order.
     pub(crate) fn classes(&self) -> Vec<Class> {
         let mut before = 0;
@@ -335,10 +338,6 @@ impl Certificate {
 }
 
 impl Certificate {
-    /// How many classes there are.
-    #[cfg(feature = "io")]
-    pub(crate) const CLASSES: u32 = 1 << CLASS_BITS;
-
     /// From slopes that are not raised.
     pub(crate) fn new(slopes: &[f32]) -> Self {
         let mut sums = vec![(0, 0.0); 1 << CLASS_BITS];

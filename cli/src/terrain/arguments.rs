@@ -21,9 +21,19 @@ pub(crate) struct TerrainArguments {
     pub(crate) detail: DetailArguments,
     #[command(flatten)]
     pub(crate) heights: HeightArguments,
+    /// Leave the hierarchy: triangles of any shape, which for as many vertices are closer to the heights. For
+    /// --vertices and --ratio; takes longer.
+    #[arg(long)]
+    pub(crate) tin: bool,
+    /// With --tin: fit the heights of the vertices by least squares. They are then between those of samples.
+    #[arg(long, requires = "tin")]
+    pub(crate) least_squares: bool,
     /// Draw what signal-to-noise ratio comes of how many vertices, by this and by simpler methods, as a PNG.
     #[arg(long, value_name = "CURVE.png")]
     pub(crate) plot: Option<PathBuf>,
+    /// Threads to use; 0: all that the machine has. The result does not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
     #[command(flatten)]
     pub(crate) common: CommonArguments,
 }
@@ -68,9 +78,6 @@ pub(crate) struct CommonArguments {
     /// Write the text variant of formats that have one.
     #[arg(long)]
     pub(crate) ascii: bool,
-    /// Threads to use; 0: all that the machine has. The result does not depend on it.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) threads: usize,
     /// Write what happened, as JSON, to this file.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,

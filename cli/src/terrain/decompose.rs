@@ -24,9 +24,8 @@ pub(crate) fn run(arguments: &DecomposeArguments) -> Result<(), Failure> {
     let options = DecompositionOptions { threads: *threads, ..DecompositionOptions::default() };
     let progress = Progress::new(*quiet);
     let begin = Instant::now();
-    let (decomposition, peak_bytes) = peak_bytes(|| {
-        progress.during("decomposing", |monitor| Decomposition::new(field, &options, monitor))
-    });
+    let (decomposition, peak_bytes) =
+        peak_bytes(|| progress.during("decomposing", |monitor| Decomposition::new(field, &options, monitor)));
     let seconds = begin.elapsed().as_secs_f64();
     let decomposition = decomposition?;
 

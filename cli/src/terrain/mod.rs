@@ -5,11 +5,15 @@ mod decompose;
 mod extract;
 mod plot;
 mod report;
+mod tin;
 
 use std::path::Path;
 use std::time::Instant;
 
-use decimesh::rate_distortion::{Approximation, Decomposition, DecompositionOptions, Error, HeightFileError};
+use decimesh::Mesh;
+use decimesh::rate_distortion::{
+    Approximation, Decomposition, DecompositionOptions, Error, HeightFileError, VerticalError,
+};
 
 pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments};
 pub(crate) use decompose::run as decompose;
@@ -17,14 +21,18 @@ pub(crate) use extract::run as extract;
 
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
-use crate::files::{check_directory, check_output, write};
+use crate::files::{check_directory, check_output, file_name, write};
 use crate::progress::Progress;
 use crate::report::{print, write_json};
 use arguments::CommonArguments;
-use report::{MeasuredError, TerrainReport, certified_gap, summary};
+use report::{MeasuredError, TerrainReport, summary};
 
 pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
-    let TerrainArguments { input, output, detail, heights, plot, common } = arguments;
+    let TerrainArguments { input, output, heights, plot, threads, common, .. } = arguments;
+    let detail = arguments.detail.detail();
+    if arguments.tin {
+        tin::check(detail)?;
+    }
     check_output(output)?;
     common.report.as_deref().map_or(Ok(()), check_directory)?;
     plot.as_deref().map_or(Ok(()), check_directory)?;
@@ -33,46 +41,62 @@ pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
     let field = heights.read(input)?;
     let seconds_read = begin.elapsed().as_secs_f64();
 
-    let detail = detail.detail();
-    let options = DecompositionOptions { threads: common.threads, ..DecompositionOptions::default() };
+    let options = DecompositionOptions { threads: *threads, ..DecompositionOptions::default() };
     let progress = Progress::new(common.quiet);
     let begin = Instant::now();
-    let (result, peak_bytes) = peak_bytes(|| -> Result<_, Error> {
-        let decomposition = progress
-            .during("decomposing", |monitor| Decomposition::new(field, &options, monitor))?;
-        let approximation = decomposition.at(detail)?;
-        Ok((decomposition, approximation))
+    let (result, peak_bytes) = peak_bytes(|| -> Result<_, Failure> {
+        let decomposition =
+            progress.during("decomposing", |monitor| Decomposition::new(field, &options, monitor))?;
+        let terrain = match arguments.tin {
+            true => progress.during("setting free", |monitor| {
+                tin::terrain(&decomposition, detail, arguments.least_squares, monitor)
+            })?,
+            false => Terrain::of(&decomposition, decomposition.at(detail)?),
+        };
+        Ok((decomposition, terrain))
     });
     let seconds = begin.elapsed().as_secs_f64();
-    let (decomposition, approximation) = result?;
+    let (decomposition, terrain) = result?;
 
-    let seconds_write = write_mesh(&approximation, output, common)?;
+    let seconds_write = write_mesh(&terrain.mesh, output, common)?;
     if let Some(path) = plot {
-        plot::write(&decomposition, &approximation, path)?;
+        let name = file_name(input);
+        progress.during("plotting", |monitor| plot::write(&decomposition, &name, path, monitor))?;
     }
     let report = TerrainReport {
-        certified_gap_db: certified_gap(&decomposition, detail, approximation.mesh.positions().len()),
         seconds,
         seconds_read: Some(seconds_read),
         seconds_write,
         peak_bytes,
-        ..TerrainReport::of(&decomposition, &approximation)
+        ..terrain.report(&decomposition)
     };
     tell(&report, common)
 }
 
-impl TerrainReport {
-    /// What is known of a mesh without a clock.
-    fn of(decomposition: &Decomposition, approximation: &Approximation) -> Self {
+/// A mesh that was made, and how good it is.
+struct Terrain {
+    mesh: Mesh,
+    error: VerticalError,
+    certified_gap: Option<f64>,
+}
+
+impl Terrain {
+    fn of(decomposition: &Decomposition, taken: Approximation) -> Self {
+        let error = decomposition.measure(&taken);
+        Self { error, certified_gap: Some(taken.certified_gap), mesh: taken.mesh }
+    }
+
+    /// What is known without a clock.
+    fn report(&self, decomposition: &Decomposition) -> TerrainReport {
         let field = decomposition.field();
-        Self {
+        TerrainReport {
             columns: field.columns(),
             rows: field.rows(),
             samples: decomposition.samples(),
-            vertices_out: approximation.mesh.positions().len(),
-            triangles_out: approximation.mesh.triangles().len(),
-            error: MeasuredError::of(field, approximation),
-            certified_gap_db: None,
+            vertices_out: self.mesh.positions().len(),
+            triangles_out: self.mesh.triangles().len(),
+            error: MeasuredError::new(field, self.error),
+            certified_gap_db: self.certified_gap,
             seconds: 0.0,
             seconds_read: None,
             seconds_write: 0.0,
@@ -82,13 +106,9 @@ impl TerrainReport {
 }
 
 /// Writes the mesh, and answers how many seconds that took.
-fn write_mesh(
-    approximation: &Approximation,
-    output: &Path,
-    common: &CommonArguments,
-) -> Result<f64, Failure> {
+fn write_mesh(mesh: &Mesh, output: &Path, common: &CommonArguments) -> Result<f64, Failure> {
     let begin = Instant::now();
-    write(&approximation.mesh, output, common.ascii)?;
+    write(mesh, output, common.ascii)?;
     Ok(begin.elapsed().as_secs_f64())
 }
 

@@ -1,7 +1,6 @@
 //! What is said about terrain.
 
-use decimesh::rate_distortion::vertical::measure;
-use decimesh::rate_distortion::{Approximation, Decomposition, Detail, HeightField};
+use decimesh::rate_distortion::{HeightField, VerticalError};
 use serde::Serialize;
 
 use crate::report::{grouped, significant};
@@ -17,10 +16,10 @@ pub(crate) struct TerrainReport {
     pub(crate) triangles_out: usize,
     #[serde(flatten)]
     pub(crate) error: MeasuredError,
-    /// How far the squared error can be above that of the best conforming mesh of as many vertices; null for a
-    /// maximum error, whose mesh is the smallest there is.
+    /// How far the squared error can be above that of the best conforming mesh of as many vertices; null for
+    /// --tin, whose meshes are others.
     pub(crate) certified_gap_db: Option<f64>,
-    /// Of decomposing, or of reading a hierarchy, and of taking the mesh from it.
+    /// Of decomposing, or of reading a hierarchy, of taking the mesh from it, and of measuring the error.
     pub(crate) seconds: f64,
     /// Of reading the heights.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,14 +54,9 @@ pub(crate) struct DecomposeReport {
 }
 
 impl MeasuredError {
-    pub(crate) fn of(field: &HeightField, approximation: &Approximation) -> Self {
-        let columns = field.columns() as u32;
-        let places: Vec<_> =
-            approximation.samples.iter().map(|sample| [sample % columns, sample / columns]).collect();
-        let mesh = &approximation.mesh;
-        let heights: Vec<_> = mesh.positions().iter().map(|[_, _, height]| *height).collect();
-        let error = measure(field, &places, &heights, mesh.triangles());
-        Self { rms: error.rms(), max: error.maximum, psnr_db: psnr(field, error.rms()) }
+    pub(crate) fn new(field: &HeightField, error: VerticalError) -> Self {
+        let rms = error.rms();
+        Self { rms, max: error.maximum, psnr_db: psnr(field, rms) }
     }
 }
 
@@ -70,14 +64,6 @@ impl MeasuredError {
 pub(crate) fn psnr(field: &HeightField, rms: f64) -> f64 {
     let (low, high) = field.range();
     20.0 * ((f64::from(high) - f64::from(low)) / rms).log10()
-}
-
-/// How good a mesh of so many vertices is known to be, where that is asked of the order that it comes from.
-pub(crate) fn certified_gap(decomposition: &Decomposition, detail: Detail, vertices: usize) -> Option<f64> {
-    match detail {
-        Detail::MaxError(_) => None,
-        _ => Some(decomposition.certified_gap(vertices)),
-    }
 }
 
 pub(crate) fn summary(report: &TerrainReport) -> String {
