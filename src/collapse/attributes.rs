@@ -36,10 +36,7 @@ impl AttributeRows {
         let attributes = mesh.attributes();
         let vertices = mesh.positions().len();
         let AttributeWeights { normals, uvs, colors } = weights;
-        let unit = mesh.bounds().map_or(0.0, |(low, high)| {
-            scale * (Vec3::from(high) - Vec3::from(low)).max_element().min(f32::MAX)
-        });
-        let weighted = |weight: f32| (weight > 0.0).then_some(weight * unit);
+        let weighted = |weight: f32| (weight > 0.0).then_some(weight);
         let normals = attributes.normals.as_ref().zip(weighted(normals));
         let uvs = attributes.uvs.as_ref().zip(weighted(uvs));
         let colors = attributes.colors.as_ref().zip(weighted(colors / 255.0));
@@ -49,13 +46,16 @@ impl AttributeRows {
         if values == 0 {
             return None;
         }
+        let unit = mesh.bounds().map_or(0.0, |(low, high)| {
+            scale * (Vec3::from(high) - Vec3::from(low)).max_element().min(f32::MAX)
+        });
         let width = values.div_ceil(4);
         let mut blocks = Vec::with_capacity(width * vertices);
         for vertex in 0..vertices {
             let mut row = [0.0; 4 * WIDTH];
             let mut places = row.iter_mut();
             let mut fill = |values: &[f32], weight: f32| {
-                values.iter().zip(&mut places).for_each(|(value, place)| *place = value * weight);
+                values.iter().zip(&mut places).for_each(|(value, place)| *place = value * (weight * unit));
             };
             if let Some((normals, weight)) = normals {
                 fill(&normals[vertex], weight);

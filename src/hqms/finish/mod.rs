@@ -458,20 +458,20 @@ impl<'a> Finish<'a> {
         }
         let own_flags = self.surface.flags[source as usize];
         let terms = self.terms();
-        let half_edge::Scratch { wedges, moves, .. } = half_edge;
         let is_plain = !self.rules.half_edge || terms.are_none();
-        if !is_plain {
-            wedges.look_up(&terms.wedges);
-            if !terms.find_moves(source_ring, own_flags, wedges, target, moves) {
-                return Outcome::Illegal;
+        let edge = self.position(target) - self.position(source);
+        let error = if is_plain {
+            0.0
+        } else {
+            match terms.settle(source_ring, own_flags, target, edge, half_edge) {
+                Some(error) => error,
+                None => return Outcome::Illegal,
             }
-        }
+        };
         let loss = self.loss(&doomed, Vec3A::from_vec4(collapse.point), [source, target]);
         if loss > price {
             return Outcome::Dearer(loss);
         }
-        let edge = self.position(target) - self.position(source);
-        let error = if is_plain { 0.0 } else { terms.attribute_error(source_ring, edge, half_edge) };
         let is_counted = matches!(goal, Goal::Vertices(_)) && !self.surface.wedges.is_empty();
         let losing =
             if is_counted { self.losing_names([source, target], source_ring, &doomed) } else { Vec::new() };
