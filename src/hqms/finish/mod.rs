@@ -123,7 +123,7 @@ impl<'a> Finish<'a> {
             around: Vec::new(),
         };
         for vertex in 0..vertices as u32 {
-            if !finish.refresh(vertex) {
+            if !finish.renew(vertex) {
                 finish.bury(vertex);
             }
         }
@@ -143,9 +143,26 @@ impl<'a> Finish<'a> {
         loop {
             self.empty_queue(goal, report)?;
             if !self.settle_hubs() {
+                self.renew_flags();
                 return Ok(self.counts);
             }
         }
+    }
+
+    /// Brings up to date what passes to come want to know of the vertices whose rings have changed, and which
+    /// did not come up again. Only where the topology is given up do borders come and go.
+    fn renew_flags(&mut self) {
+        if !self.rules.half_edge || !self.rules.any_topology {
+            return;
+        }
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for vertex in 0..self.stale.len() as u32 {
+            if self.stale[vertex as usize] {
+                self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+                self.flags_of(&scratch.source);
+            }
+        }
+        self.scratch = scratch;
     }
 
     fn empty_queue(
@@ -203,7 +220,7 @@ impl<'a> Finish<'a> {
             }
         }
         for &hub in &hubs {
-            self.refresh(hub);
+            self.renew(hub);
         }
         let is_split = hubs.len() > count;
         if is_split {
@@ -244,8 +261,12 @@ impl<'a> Finish<'a> {
         Vec3A::from_vec4(self.surface.points[vertex as usize])
     }
 
-    /// Renews what is known about a vertex whose ring has changed; `false` if no face is left.
-    fn refresh(&mut self, vertex: u32) -> bool {
+    /// Renews what others look at of a vertex whose ring has changed; `false` if no face is left. Where vertices
+    /// stay, that is nothing: a vertex gathers what it needs when its own cost is asked for.
+    fn renew(&mut self, vertex: u32) -> bool {
+        if self.rules.half_edge {
+            return self.degrees[vertex as usize] > 0;
+        }
         let mut scratch = std::mem::take(&mut self.scratch);
         self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
         let ring = &scratch.source;
@@ -408,7 +429,7 @@ impl<'a> Finish<'a> {
             }
         }
         around.retain(|&vertex| {
-            let alive = self.is_hub(vertex) || self.refresh(vertex);
+            let alive = self.is_hub(vertex) || self.renew(vertex);
             if !alive {
                 self.bury(vertex);
             }
