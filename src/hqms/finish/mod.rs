@@ -77,6 +77,8 @@ pub(crate) struct Finish<'a> {
     stamp: u32,
     counts: Counts,
     scratch: Scratch,
+    /// The vertex whose ring `scratch.source` is, with its corners, if nothing has changed since it was gathered.
+    gathered: Option<u32>,
     around: Vec<u32>,
 }
 
@@ -120,6 +122,7 @@ impl<'a> Finish<'a> {
             stamp: 0,
             counts,
             scratch: Scratch::default(),
+            gathered: None,
             around: Vec::new(),
         };
         for vertex in 0..vertices as u32 {
@@ -158,7 +161,7 @@ impl<'a> Finish<'a> {
         let mut scratch = std::mem::take(&mut self.scratch);
         for vertex in 0..self.stale.len() as u32 {
             if self.stale[vertex as usize] {
-                self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+                self.gather_source(vertex, &mut scratch);
                 self.flags_of(&scratch.source);
             }
         }
@@ -257,6 +260,14 @@ impl<'a> Finish<'a> {
         });
     }
 
+    /// Gathers the ring of `vertex` as the source of `scratch`, if it is not there as it is.
+    fn gather_source(&mut self, vertex: u32, scratch: &mut Scratch) {
+        if self.gathered != Some(vertex) {
+            self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+            self.gathered = Some(vertex);
+        }
+    }
+
     fn position(&self, vertex: u32) -> Vec3A {
         Vec3A::from_vec4(self.surface.points[vertex as usize])
     }
@@ -268,7 +279,7 @@ impl<'a> Finish<'a> {
             return self.degrees[vertex as usize] > 0;
         }
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        self.gather_source(vertex, &mut scratch);
         let ring = &scratch.source;
         self.flags_of(ring);
         self.quadrics[vertex as usize] = ring.quadric;
@@ -356,8 +367,8 @@ impl<'a> Finish<'a> {
             return IMPOSSIBLE;
         }
         let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather_source(vertex, &mut scratch);
         let Scratch { source, half_edge, .. } = &mut scratch;
-        self.gather(vertex, source, &mut half_edge.wedges.corners);
         let own_flags = self.flags_of(source);
         let failed = failed.map(|failed| (failed.cost, failed.partner));
         let flags = |neighbour: u32| self.surface.flags[neighbour as usize];
@@ -396,7 +407,7 @@ impl<'a> Finish<'a> {
         let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(ends[0], &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        self.gather_source(ends[0], &mut scratch);
         self.gather(ends[1], &mut scratch.target, &mut scratch.target_corners);
         let outcome = self.collapse_gathered(ends, price, goal, &mut scratch);
         let Outcome::Done = outcome else {
@@ -533,6 +544,7 @@ impl<'a> Finish<'a> {
                 self.degrees[into] += 1;
             }
         }
+        self.gathered = None;
         self.first[from] = NONE;
         self.degrees[from] = 0;
         let surface = &mut *self.surface;
