@@ -76,6 +76,12 @@ impl AttributeRows {
         &self.blocks[vertex as usize * self.width..][..self.width]
     }
 
+    /// All rows, whose width is known to be this.
+    #[inline(always)]
+    fn of_width<const W: usize>(&self) -> &[[Vec4; W]] {
+        self.blocks.as_chunks().0
+    }
+
     /// The squared distance between the attributes of two wedges.
     pub(crate) fn distance_squared(&self, names: &WedgeNames, a: u32, b: u32) -> f32 {
         let (a, b) = (self.row(names.vertex(a)), self.row(names.vertex(b)));
@@ -112,8 +118,23 @@ impl AttributeQuadric {
         wedges: &RingWedges,
         ring: &Ring,
     ) {
+        match rows.width {
+            1 => self.gather_rows::<1>(rows, names, wedges, ring),
+            2 => self.gather_rows::<2>(rows, names, wedges, ring),
+            _ => self.gather_rows::<WIDTH>(rows, names, wedges, ring),
+        }
+    }
+
+    fn gather_rows<const W: usize>(
+        &mut self,
+        rows: &AttributeRows,
+        names: &WedgeNames,
+        wedges: &RingWedges,
+        ring: &Ring,
+    ) {
         self.sectors.clear();
-        let row = |wedge: u32| rows.row(names.vertex(wedge));
+        let rows = rows.of_width::<W>();
+        let row = |wedge: u32| &rows[names.vertex(wedge) as usize];
         for (index, spoke) in ring.spokes().iter().enumerate() {
             let wedge = wedges.own[index];
             let known = self.sectors.iter().position(|sector| sector.wedge == wedge);
@@ -164,10 +185,25 @@ impl AttributeQuadric {
         moves: &Moves,
         edge: Vec3A,
     ) -> (f32, f32) {
+        match rows.width {
+            1 => self.cost_of_rows::<1>(rows, names, moves, edge),
+            2 => self.cost_of_rows::<2>(rows, names, moves, edge),
+            _ => self.cost_of_rows::<WIDTH>(rows, names, moves, edge),
+        }
+    }
+
+    fn cost_of_rows<const W: usize>(
+        &self,
+        rows: &AttributeRows,
+        names: &WedgeNames,
+        moves: &Moves,
+        edge: Vec3A,
+    ) -> (f32, f32) {
+        let rows = rows.of_width::<W>();
         let (mut cost, mut area) = (0.0, 0.0);
         for sector in &self.sectors {
-            let own = rows.row(names.vertex(sector.wedge));
-            let there = rows.row(names.vertex(moves.target(sector.wedge)));
+            let own = &rows[names.vertex(sector.wedge) as usize];
+            let there = &rows[names.vertex(moves.target(sector.wedge)) as usize];
             let [x, y, z] = sector.slopes;
             let mut differences = Vec4::ZERO;
             for ((&own, &there), gradient) in own.iter().zip(there).zip(&sector.gradients) {

@@ -102,10 +102,21 @@ impl Wedges<'_> {
     /// The wedge of a corner, which is `face << 2 | corner`.
     #[inline(always)]
     pub(crate) fn at(&self, corner: u32) -> u32 {
-        let (face, corner) = ((corner >> 2) as usize, (corner & 3) as usize);
+        let [own, ..] = self.around(corner);
+        own
+    }
+
+    /// The wedges of a corner, and of those after and before it.
+    #[inline(always)]
+    fn around(&self, corner: u32) -> [u32; 3] {
+        let face = (corner >> 2) as usize;
+        let corners = [corner, next_corner(corner), previous_corner(corner)];
         match self.corners.get(face) {
-            Some(wedges) => wedges[corner].load(Relaxed),
-            None => self.sources[self.faces[face][corner].load(Relaxed) as usize],
+            Some(wedges) => corners.map(|corner| wedges[(corner & 3) as usize].load(Relaxed)),
+            None => {
+                let vertices = &self.faces[face];
+                corners.map(|corner| self.sources[vertices[(corner & 3) as usize].load(Relaxed) as usize])
+            }
         }
     }
 
@@ -132,12 +143,13 @@ impl RingWedges {
     /// Looks up the wedges of the `corners`.
     pub(crate) fn look_up(&mut self, wedges: &Wedges) {
         let Self { corners, own, next, previous, kinds } = self;
-        own.clear();
-        own.extend(corners.iter().map(|&corner| wedges.at(corner)));
-        next.clear();
-        next.extend(corners.iter().map(|&corner| wedges.at(next_corner(corner))));
-        previous.clear();
-        previous.extend(corners.iter().map(|&corner| wedges.at(previous_corner(corner))));
+        for names in [&mut *own, &mut *next, &mut *previous] {
+            names.resize(corners.len(), 0);
+        }
+        let names = own.iter_mut().zip(&mut *next).zip(&mut *previous);
+        for (&corner, ((own, next), previous)) in corners.iter().zip(names) {
+            [*own, *next, *previous] = wedges.around(corner);
+        }
         let is_one = own.iter().all(|&wedge| wedge == own[0]);
         let is_first = |index: usize| !own[..index].contains(&own[index]);
         *kinds =
