@@ -6,6 +6,8 @@ mod brute_force;
 mod comparison;
 mod curve;
 mod decomposition;
+#[cfg(feature = "io")]
+mod disk;
 mod distortion;
 mod error;
 mod extract;
@@ -36,6 +38,8 @@ pub use baselines::Criterion;
 pub use comparison::Baseline;
 pub use curve::RatePoint;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
+#[cfg(feature = "io")]
+pub use disk::OnDisk;
 pub use error::Error;
 pub use height_field::HeightField;
 #[cfg(feature = "io")]

@@ -5,6 +5,7 @@ mod decompose;
 mod extract;
 mod plot;
 mod report;
+mod tiles;
 mod tin;
 
 use std::path::Path;
@@ -15,9 +16,10 @@ use decimesh::rate_distortion::{
     Approximation, Decomposition, DecompositionOptions, Error, HeightFileError, VerticalError,
 };
 
-pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments};
+pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments, TilesArguments};
 pub(crate) use decompose::run as decompose;
 pub(crate) use extract::run as extract;
+pub(crate) use tiles::run as tiles;
 
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
