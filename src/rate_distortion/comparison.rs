@@ -16,7 +16,7 @@ use crate::workers::Workers;
 #[non_exhaustive]
 pub enum Baseline {
     /// The paper's own algorithm: the vertex goes, with all of its descendants, that adds the least distortion for
-    /// each of them. About as good as [`Decomposition::new`], in some thirty times the time.
+    /// each of them. About as good as [`Decomposition::new`], in some forty times the time.
     GeneralizedDecimation,
     /// One vertex at a time from all of them down: the one of least error without descendants.
     Decimation(Criterion),

@@ -40,7 +40,7 @@ pub(super) fn decimate<G: Graph, E>(
     let mut domains = Domains::new(graph, deltas, |part| report(STARTING * part))?;
     let vertices = domains.decided.len();
     while domains.remove_least() {
-        if domains.removals.steps.len() % A_REPORT == 0 {
+        if domains.removals.steps.len().is_multiple_of(A_REPORT) {
             let gone = domains.removals.order.len() as f32 / vertices as f32;
             report(STARTING + (1.0 - STARTING) * gone)?;
         }
@@ -130,7 +130,7 @@ impl<'a, G: Graph> Domains<'a, G> {
                 changes[ancestor].distortion += distortion;
                 changes[ancestor].rate += 1;
             });
-            if vertex % A_REPORT == 0 {
+            if vertex.is_multiple_of(A_REPORT) {
                 report(vertex as f32 / vertices as f32)?;
             }
         }
