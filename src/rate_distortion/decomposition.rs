@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 
 use super::Error;
-use super::distortion::distortions;
+use super::distortion::{Place, distortions};
 use super::extract::{Extract, extract};
 use super::flow::{Certificate, Effort, NEVER, decibels, rank, solve};
 use super::height_field::HeightField;
 use super::lattice::{Collected, Lattice};
 use super::max_error::{self, Left};
+use super::vertical::{VerticalError, measure};
 use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use crate::workers::Workers;
@@ -16,7 +17,7 @@ use crate::workers::Workers;
 /// How a field is decomposed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DecompositionOptions {
-    /// Sweeps of the flow before the [gap](Decomposition::certified_gap) is looked at, and between two looks, 2 at
+    /// Sweeps of the flow before the [gap](Approximation::certified_gap) is looked at, and between two looks, 2 at
     /// least. Eight are enough for most terrain.
     pub sweeps: u32,
     /// The gap, in decibels, at which it is good enough: where a fifth of the vertices is left.
@@ -87,6 +88,9 @@ pub struct Approximation {
     pub squared_error: f64,
     /// The root of its mean.
     pub rms: f64,
+    /// How far, in decibels, the squared error can be above that of the best conforming mesh of as many vertices:
+    /// proven for this field, by a bound on all such meshes. Infinite if nothing is known.
+    pub certified_gap: f64,
 }
 
 impl Decomposition {
@@ -188,16 +192,13 @@ impl Decomposition {
         }
     }
 
-    /// How far, in decibels of squared error, the mesh of so many vertices can be above the best conforming mesh of
-    /// as many: proven for this field, by a bound on all of them. Infinite if nothing is known.
-    pub fn certified_gap(&self, vertices: usize) -> f64 {
-        let removed = self.removed_for(vertices);
-        decibels(self.squared_error(removed), self.bound(removed))
-    }
-
-    /// The RMS of the mesh of so many vertices, as tracked.
-    pub fn rms(&self, vertices: usize) -> f64 {
-        self.root_mean(self.squared_error(self.removed_for(vertices)))
+    /// What is measured between the field and what was taken from it, sample by sample. Linear in the samples.
+    pub fn measure(&self, taken: &Approximation) -> VerticalError {
+        let columns = self.field().columns() as u32;
+        let places: Vec<Place> =
+            taken.samples.iter().map(|&sample| [sample % columns, sample / columns]).collect();
+        let heights: Vec<f32> = taken.mesh.positions().iter().map(|&[_, _, height]| height).collect();
+        measure(self.field(), &places, &heights, taken.mesh.triangles())
     }
 
     /// How many vertices have to go so that no more than so many are left: as few as can be.
@@ -272,10 +273,6 @@ impl Decomposition {
         Ok(check_error("RMS", rms)?.powi(2) * self.weight)
     }
 
-    fn root_mean(&self, squared_error: f64) -> f64 {
-        if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 }
-    }
-
     /// The vertices that are left once so many are gone, and those that the bound needs.
     pub(crate) fn within(&self, removed: usize, bound: f64) -> Left {
         let cut = self.cut(removed);
@@ -293,7 +290,7 @@ impl Decomposition {
     }
 
     fn approximation(&self, removed: usize) -> Approximation {
-        self.finish(self.extract(removed), self.squared_error(removed))
+        self.finish(self.extract(removed), self.squared_error(removed), removed)
     }
 
     fn extract_set(&self, left: &Left) -> Extract {
@@ -301,7 +298,8 @@ impl Decomposition {
     }
 
     fn of_set(&self, left: &Left) -> Approximation {
-        self.finish(self.extract_set(left), self.squared_error_of(left))
+        let removed = (0..self.order.len()).filter(|&vertex| !left.contains(vertex)).count();
+        self.finish(self.extract_set(left), self.squared_error_of(left), removed)
     }
 
     fn squared_error_of(&self, left: &Left) -> f64 {
@@ -309,13 +307,14 @@ impl Decomposition {
         gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>().max(0.0) * self.lattice.squared_unit()
     }
 
-    fn finish(&self, extract: Extract, squared_error: f64) -> Approximation {
+    fn finish(&self, extract: Extract, squared_error: f64, removed: usize) -> Approximation {
         let columns = self.field().columns() as u32;
         Approximation {
             mesh: extract.to_mesh(&self.lattice),
             samples: extract.places.iter().map(|[x, y]| y * columns + x).collect(),
             squared_error,
-            rms: self.root_mean(squared_error),
+            rms: if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 },
+            certified_gap: decibels(squared_error, self.bound(removed)),
         }
     }
 }

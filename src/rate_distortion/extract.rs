@@ -145,9 +145,13 @@ impl Cutting<'_> {
         let mut polygon = corners.to_vec();
         for (axis, limit) in limits.into_iter().enumerate() {
             polygon = self.cut(&polygon, axis, limit);
+            // What only touches the edge is a point or a line.
+            if polygon.len() < 3 {
+                return;
+            }
         }
         let is_void = |&vertex: &u32| self.lattice.known(self.extract.places[vertex as usize]) == VOID;
-        if polygon.len() < 3 || polygon.iter().any(is_void) {
+        if polygon.iter().any(is_void) {
             return;
         }
         let fan = polygon[1..].windows(2).map(|pair| [polygon[0], pair[0], pair[1]]);

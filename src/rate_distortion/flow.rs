@@ -410,6 +410,6 @@ pub(crate) fn rank(value: f32) -> u32 {
 }
 
 /// The number with such bits.
-fn of_rank(rank: u32) -> f32 {
+pub(crate) fn of_rank(rank: u32) -> f32 {
     f32::from_bits(if rank >> 31 == 1 { rank & !(1 << 31) } else { !rank })
 }

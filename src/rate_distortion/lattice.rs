@@ -14,6 +14,8 @@ pub(crate) struct Lattice {
     layout: Layout,
     /// The heights of all samples of the layout, where the field has not one for each.
     filled: Option<Vec<f32>>,
+    /// Whether nothing comes beyond the left, right, upper and lower edge.
+    rims: [bool; 4],
     /// What heights and weights are divided by, powers of two, so that no sum of squares is beyond what an `f32`
     /// holds, whatever the unit.
     units: [f64; 2],
@@ -22,14 +24,21 @@ pub(crate) struct Lattice {
 impl Lattice {
     pub(crate) fn new(field: HeightField) -> Self {
         let layout = Layout::covering(field.columns(), field.rows());
+        let units = units(field.range(), field.importance());
+        Self::of_layout(field, layout, [true; 4], units)
+    }
+
+    /// A part of a larger field, on one quad of 2^`depth` samples: samples on those of its edges that are not the
+    /// rim count half here and half beyond.
+    pub(crate) fn tile(field: HeightField, depth: u32, rims: [bool; 4], units: [f64; 2]) -> Self {
+        Self::of_layout(field, Layout::new([1, 1], depth), rims, units)
+    }
+
+    fn of_layout(field: HeightField, layout: Layout, rims: [bool; 4], units: [f64; 2]) -> Self {
         let [right, bottom] = layout.extent();
         let fits = (right + 1, bottom + 1) == (field.columns(), field.rows());
         let filled = (!fits || field.voids() > 0).then(|| filled(&field, right + 1, bottom + 1));
-        let (low, high) = field.range();
-        let most =
-            field.importance().unwrap_or(&[1.0]).iter().fold(0.0, |most: f32, &weight| most.max(weight));
-        let units = [power_of_two(f64::from(high) - f64::from(low)), power_of_two(f64::from(most))];
-        Self { field, layout, filled, units }
+        Self { field, layout, filled, rims, units }
     }
 
     pub(crate) fn field(&self) -> &HeightField {
@@ -112,41 +121,65 @@ impl Lattice {
     }
 }
 
-/// The power of two at or below a number; 1 for 0.
-fn power_of_two(number: f64) -> f64 {
-    if number > 0.0 { number.log2().floor().exp2() } else { 1.0 }
+/// What heights of a range and weights are divided by: the powers of two at or below the range and the largest.
+pub(crate) fn units((low, high): (f32, f32), importance: Option<&[f32]>) -> [f64; 2] {
+    let power_of_two = |number: f64| if number > 0.0 { number.log2().floor().exp2() } else { 1.0 };
+    let most = importance.unwrap_or(&[1.0]).iter().fold(0.0, |most: f32, &weight| most.max(weight));
+    [power_of_two(f64::from(high) - f64::from(low)), power_of_two(f64::from(most))]
 }
 
-/// The field's own heights with voids filled by what is known beside them; beyond its right and its lower edge it is
-/// turned about the edge by half a turn, which goes on as a plane where the field is one.
+/// The field's own heights, 0 in place of voids; beyond its right and its lower edge it is turned about the edge by
+/// half a turn, which goes on as a plane where the field is one.
+///
+/// What stands at a place depends on its own row and column alone, so that tiles agree on their common edges.
 fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
     let (columns, rows) = (field.columns(), field.rows());
-    let mut known = field.heights().to_vec();
-    if field.voids() > 0 {
-        let mut last = f32::NAN;
-        let mut fill = |height: &mut f32| match height.is_nan() {
-            true => *height = last,
-            false => last = *height,
-        };
-        // The first heights may be void; the way back fills them with what came first.
-        known.iter_mut().for_each(&mut fill);
-        known.iter_mut().rev().for_each(&mut fill);
+    let or_zero = |height: f32| if height.is_nan() { 0.0 } else { height };
+    let mut heights = vec![0.0; width * height];
+    for y in 0..rows {
+        let known = &field.heights()[y * columns..][..columns];
+        let turned = Turned::new(columns, |x| known[x]);
+        let row = &mut heights[y * width..][..width];
+        row.iter_mut().enumerate().for_each(|(x, height)| *height = turned.at(x));
     }
-    let turned = |edge: f32, mirrored: f32| (2.0 * edge - mirrored).clamp(f32::MIN, f32::MAX);
-    // A layout reaches beyond its field by no more than a quarter of it (`Layout::covering`).
-    let row = |row: usize| {
-        let known = &known[row * columns..][..columns];
-        let beyond = (columns..width).map(|x| turned(known[columns - 1], known[2 * (columns - 1) - x]));
-        known.iter().copied().chain(beyond)
-    };
-    let mut heights = Vec::with_capacity(width * height);
-    (0..rows).for_each(|y| heights.extend(row(y)));
-    for y in rows..height {
-        heights.extend(
-            row(rows - 1).zip(row(2 * (rows - 1) - y)).map(|(edge, mirrored)| turned(edge, mirrored)),
-        );
+    for x in 0..width {
+        // Columns beyond the right edge are turned about the lower one as they are there.
+        let is_void = |y: usize| x < columns && field.is_void(x, y);
+        let column: Vec<f32> =
+            (0..rows).map(|y| if is_void(y) { f32::NAN } else { heights[y * width + x] }).collect();
+        let turned = Turned::new(rows, |y| column[y]);
+        (rows..height).for_each(|y| heights[y * width + x] = turned.at(y));
     }
+    heights.iter_mut().for_each(|height| *height = or_zero(*height));
     heights
+}
+
+/// A line of heights that goes on beyond its end, turned about it, and about where it began, and so on.
+struct Turned<F> {
+    last: usize,
+    height: F,
+}
+
+impl<F: Fn(usize) -> f32> Turned<F> {
+    fn new(count: usize, height: F) -> Self {
+        Self { last: count - 1, height }
+    }
+
+    /// Not a number where void; beyond the end, what is void on the way counts as being as high as the end.
+    fn at(&self, index: usize) -> f32 {
+        if index <= self.last {
+            return (self.height)(index);
+        }
+        let (turns, rest) = (index / (2 * self.last), index % (2 * self.last));
+        let end = f64::from((self.height)(self.last));
+        let known = |index: usize| match f64::from((self.height)(index)) {
+            void if void.is_nan() => end,
+            height => height,
+        };
+        let within = if rest <= self.last { known(rest) } else { 2.0 * end - known(2 * self.last - rest) };
+        let height = within + turns as f64 * 2.0 * (end - known(0));
+        (height as f32).clamp(f32::MIN, f32::MAX)
+    }
 }
 
 /// A lattice that collects the changes of distortion of its vertices.
@@ -200,8 +233,11 @@ impl Field for Collected<'_> {
 
     fn is_rim(&self, from: Place, to: Place) -> bool {
         let [right, bottom] = self.lattice.layout.extent();
-        (from[0] == to[0] && (from[0] == 0 || from[0] as usize == right))
-            || (from[1] == to[1] && (from[1] == 0 || from[1] as usize == bottom))
+        let [left_rim, right_rim, upper_rim, lower_rim] = self.lattice.rims;
+        let on = |axis: usize, last: usize, low: bool, high: bool| {
+            from[axis] == to[axis] && ((low && from[axis] == 0) || (high && from[axis] as usize == last))
+        };
+        on(0, right, left_rim, right_rim) || on(1, bottom, upper_rim, lower_rim)
     }
 
     fn take(&self, triangle: &Half, change: f32) {

@@ -15,8 +15,8 @@
 //! lies in several overlapping domains is counted in each of them, and never twice.
 //!
 //! Where this departs from the paper:
-//! - Sums are held as whole numbers, in units of 2^-62 of the sum of all deltas, at least. So they stay exact through
-//!   any number of updates, and domains of equal slope are seen to be.
+//! - Deltas are rounded to whole numbers of units, which are at most 2^-61 of the sum of all. So sums of them stay
+//!   exact through any number of updates, and domains of equal slope are seen to be.
 //! - The least slope is found by a queue, not by minima over the subtrees: slopes mostly rise (domains lose
 //!   their cheapest part), so a vertex is queued by a bound from below, and again when it proves too low.
 //! - `ΔD` here is what the distortion grows by; the paper's is negative.

@@ -17,7 +17,10 @@ mod max_error;
 mod merging;
 pub mod polyline;
 mod priority;
+mod raster;
 mod removals;
+pub mod tiles;
+pub mod vertical;
 
 #[cfg(test)]
 mod tests;
@@ -27,3 +30,4 @@ pub use comparison::Baseline;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
+pub use vertical::VerticalError;

@@ -11,6 +11,8 @@ use super::height_field::HeightField;
 use super::lattice::{Collected, Lattice};
 use super::layout::{Layout, Site};
 use super::max_error;
+use super::tiles::{InMemory, TileMesh, TileOptions, Tiles};
+use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use crate::workers::Workers;
 
@@ -309,6 +311,49 @@ proptest! {
         let decomposition = decompose(HeightField::new(5, 6, heights, None).unwrap(), 1);
         let mesh = decomposition.at(Detail::Ratio(0.4)).unwrap();
         prop_assert!(mesh.rms.is_finite() && mesh.mesh.positions().as_flattened().iter().all(|x| x.is_finite()));
+    }
+
+    /// Blocks of tiles fit each other and the whole, and the errors they say are what is measured.
+    #[test]
+    fn tiles_have_no_cracks(field in fields(), side in prop_oneof![Just(2usize), Just(4)], part in 0.0f64..1.0) {
+        let field = HeightField::new(field.columns(), field.rows(), field.heights().to_vec(), Some(f32::NAN)).unwrap();
+        let (store, other) = (InMemory::default(), InMemory::default());
+        let options = TileOptions { side, threads: 1, ..TileOptions::default() };
+        let tiles = Tiles::new(&field, &store, &options, &mut Monitor::silent()).unwrap();
+        let parallel = TileOptions { threads: 3, ..options };
+        let parallel = Tiles::new(&field, &other, &parallel, &mut Monitor::silent()).unwrap();
+        prop_assert_eq!(tiles.samples(), field.heights().len() - field.voids());
+        let wanted = (part * tiles.samples() as f64) as usize;
+        let slope = tiles.slope_for(wanted);
+        prop_assert_eq!(slope, parallel.slope_for(wanted));
+        let whole = tiles.mesh([0, 0], tiles.size(), slope).unwrap();
+        prop_assert_eq!(&whole, &parallel.mesh([0, 0], tiles.size(), slope).unwrap());
+        let extract = |mesh: &Mesh| Extract {
+            places: mesh.positions().iter().map(|&[x, y, _]| [x as u32, field.rows() as u32 - 1 - y as u32]).collect(),
+            heights: mesh.positions().iter().map(|&[_, _, z]| z).collect(),
+            triangles: mesh.triangles().to_vec(),
+        };
+        let lattice = Lattice::new(field.clone());
+        let Some(whole) = whole else {
+            prop_assert!(self::extract(&lattice, |_| true).triangles.is_empty());
+            return Ok(());
+        };
+        let mesh = extract(&whole.mesh);
+        check_conforming(&lattice, &mesh);
+        let measured = squared_error(&lattice, &mesh);
+        prop_assert!((whole.squared_error - measured).abs() <= 1e-3 * (1.0 + measured));
+        let largest = errors(&lattice, &mesh).into_iter().filter(|&(place, _)| lattice.known(place) == 1);
+        let largest = largest.fold(0.0, |most: f64, (_, error)| most.max(error.abs()));
+        prop_assert!((whole.max_error - largest).abs() <= 1e-3);
+        // Rows of tiles one by one are the whole.
+        let rows = (0..tiles.size()[1]).filter_map(|row| {
+            tiles.mesh([0, row], [tiles.size()[0], 1], slope).unwrap()
+        });
+        let rows: Vec<TileMesh> = rows.collect();
+        let places = |mesh: &Mesh| extract(mesh).places.into_iter().collect::<HashSet<_>>();
+        let together: HashSet<_> = rows.iter().flat_map(|row| places(&row.mesh)).collect();
+        prop_assert_eq!(together, places(&whole.mesh));
+        prop_assert_eq!(rows.iter().map(|row| row.mesh.triangles().len()).sum::<usize>(), mesh.triangles.len());
     }
 
     #[test]
