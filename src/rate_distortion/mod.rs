@@ -4,10 +4,13 @@ mod baselines;
 #[cfg(test)]
 mod brute_force;
 mod comparison;
+mod curve;
 mod decomposition;
 mod distortion;
 mod error;
 mod extract;
+#[cfg(feature = "io")]
+mod file;
 mod flow;
 mod graph;
 mod height_field;
@@ -18,8 +21,12 @@ mod merging;
 pub mod polyline;
 mod priority;
 mod raster;
+mod rate;
+#[cfg(feature = "io")]
+mod read;
 mod removals;
 pub mod tiles;
+pub mod tin;
 pub mod vertical;
 
 #[cfg(test)]
@@ -27,7 +34,10 @@ mod tests;
 
 pub use baselines::Criterion;
 pub use comparison::Baseline;
+pub use curve::RatePoint;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
+#[cfg(feature = "io")]
+pub use read::HeightFileError;
 pub use vertical::VerticalError;

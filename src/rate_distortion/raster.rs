@@ -126,3 +126,71 @@ impl Side {
         self.origin + (self.numerator * self.reciprocal) as i32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Place, Rows, twice_area};
+    use proptest::prelude::*;
+
+    /// A triangle counter-clockwise, or none if it is flat.
+    fn turned([a, b, c]: [Place; 3]) -> Option<[Place; 3]> {
+        match twice_area([a, b, c]) {
+            0 => None,
+            area if area > 0 => Some([a, b, c]),
+            _ => Some([a, c, b]),
+        }
+    }
+
+    /// Whether a triangle owns a sample, by the rule: it does if a point a little to the right, and by far less below,
+    /// is inside, or if the sample is on the rim; never if it is a corner.
+    fn owns(corners: [Place; 3], rim: [bool; 3], sample: Place) -> bool {
+        let beside = |k: usize| {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            // How the area with the edge changes as the sample goes right, and down.
+            let (right, below) = ((to[1] - from[1]).signum(), (from[0] - to[0]).signum());
+            (twice_area([from, to, sample]), if right == 0 { below } else { right }, rim[k])
+        };
+        !corners.contains(&sample)
+            && (0..3).map(beside).all(|(area, shifted, rim)| area > 0 || area == 0 && (rim || shifted > 0))
+    }
+
+    proptest! {
+        #[test]
+        fn rows_are_those_of_the_rule(
+            places in prop::array::uniform3(prop::array::uniform2(0i32..9)),
+            rim in prop::array::uniform3(any::<bool>()),
+        ) {
+            let Some(corners) = turned(places) else { return Ok(()) };
+            let mut owned: Vec<Place> = Rows::of(corners, rim)
+                .flat_map(|(row, columns)| columns.map(move |column| [column, row]))
+                .collect();
+            prop_assert!(owned.is_sorted_by_key(|&[column, row]| (row, column)));
+            let mut all: Vec<Place> = (0..9).flat_map(|row| (0..9).map(move |column| [column, row])).collect();
+            all.retain(|&sample| owns(corners, rim, sample));
+            owned.dedup();
+            prop_assert_eq!(owned, all);
+        }
+
+        /// The ends of each row against whole numbers, in grids as wide and as high as there can be.
+        #[test]
+        fn rows_of_great_triangles_are_exact(
+            bits in 1u32..31,
+            parts in prop::array::uniform3(prop::array::uniform2(0.0f64..=1.0)),
+            rim in prop::array::uniform3(any::<bool>()),
+        ) {
+            let extent = [(1i64 << (31 - bits)) - 1, (1i64 << bits) - 1];
+            let places = parts.map(|part| [0, 1].map(|axis| (part[axis] * extent[axis] as f64) as i32));
+            let Some(corners) = turned(places) else { return Ok(()) };
+            let rows = Rows::of(corners, rim);
+            // All rows of low triangles, and the first and the last of high ones.
+            let last = corners.iter().map(|corner| corner[1]).max().unwrap();
+            for (row, columns) in rows.take(5000).chain(Rows::of(corners, rim).skip_while(|&(row, _)| row < last - 9))
+            {
+                for column in [columns.start - 1, columns.start, columns.end - 1, columns.end] {
+                    let is_in = columns.contains(&column);
+                    prop_assert_eq!(owns(corners, rim, [column, row]), is_in, "{} {}", row, column);
+                }
+            }
+        }
+    }
+}

@@ -105,3 +105,54 @@ pub fn measure(
     error.uncovered = field.heights().len() - field.voids() - measured;
     error
 }
+
+#[cfg(test)]
+mod tests {
+    use super::measure;
+    use crate::rate_distortion::height_field::HeightField;
+    use proptest::prelude::*;
+
+    #[test]
+    fn distances_are_summed_sample_by_sample() {
+        let mut heights = vec![0.0; 9];
+        (heights[4], heights[1], heights[6]) = (3.0, -1.0, f32::NAN);
+        let field = HeightField::new(3, 3, heights, Some(f32::NAN)).unwrap();
+        let importance = (0..9).map(|sample| if sample == 4 { 0.5 } else { 1.0 }).collect();
+        let field = field.with_importance(importance).unwrap();
+        let corners = [[0, 0], [2, 0], [0, 2], [2, 2]];
+        // One half, turned either way: six samples, one of them void.
+        for triangle in [[0, 1, 2], [0, 2, 1]] {
+            let error = measure(&field, &corners, &[0.0; 4], &[triangle]);
+            assert_eq!((error.squared, error.weight, error.maximum, error.uncovered), (5.5, 4.5, 3.0, 3));
+        }
+        let error = measure(&field, &corners, &[1.0; 4], &[[0, 2, 1], [1, 2, 3], [3, 3, 0]]);
+        assert_eq!((error.squared, error.weight, error.maximum, error.uncovered), (12.0, 7.5, 2.0, 0));
+        assert_eq!(error.rms(), (12.0f64 / 7.5).sqrt());
+        assert_eq!(measure(&field, &corners, &[0.0; 4], &[]).uncovered, 8);
+        assert_eq!(measure(&field, &corners, &[0.0; 4], &[]).rms(), 0.0);
+    }
+
+    proptest! {
+        /// A fan of triangles over all of a plane field leaves nothing out and makes no error.
+        #[test]
+        fn a_plane_has_no_error(
+            size in prop::array::uniform2(2usize..40),
+            slope in prop::array::uniform2(-9i32..9),
+            apex in prop::array::uniform2(0.0f64..1.0),
+        ) {
+            let [columns, rows] = size;
+            let height = |column: usize, row: usize| slope[0] as f32 * column as f32 + slope[1] as f32 * row as f32;
+            let heights = (0..columns * rows).map(|sample| height(sample % columns, sample / columns)).collect();
+            let field = HeightField::new(columns, rows, heights, None).unwrap();
+            let (right, bottom) = (columns - 1, rows - 1);
+            let apex = [(apex[0] * right as f64) as usize, (apex[1] * bottom as f64) as usize];
+            let vertices = [apex, [0, 0], [0, bottom], [right, bottom], [right, 0]];
+            let triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]];
+            let heights = vertices.map(|[column, row]| height(column, row));
+            let vertices = vertices.map(|place| place.map(|part| part as u32));
+            let error = measure(&field, &vertices, &heights, &triangles);
+            prop_assert!(error.maximum < 1e-9, "{}", error.maximum);
+            prop_assert_eq!((error.uncovered, error.weight), (0, (columns * rows) as f64));
+        }
+    }
+}
