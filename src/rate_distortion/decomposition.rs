@@ -281,7 +281,7 @@ impl Decomposition {
 
     /// How many vertices have to go so that the others cost no more than that.
     fn removed_for_cost(&self, limit: f64) -> Result<usize, Error> {
-        if !(limit >= 0.0) {
+        if limit.is_nan() || limit < 0.0 {
             return Err(Error::Target { what: "cost", value: limit, expected: "it must not be negative" });
         }
         let cost = |&vertex: &u32| self.costs.as_ref().map_or(1.0, |costs| f64::from(costs[vertex as usize]));
