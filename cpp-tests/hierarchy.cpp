@@ -3,8 +3,11 @@
 #include <decimesh.hpp>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "checks.hpp"
@@ -28,6 +31,10 @@ std::vector<float> hills(std::size_t columns, std::size_t rows) {
         }
     }
     return heights;
+}
+
+bool are_same(decimesh::Span<const std::uint32_t> one, decimesh::Span<const std::uint32_t> other) {
+    return std::equal(one.begin(), one.end(), other.begin(), other.end());
 }
 
 Status status_of(const std::vector<float> &heights, std::size_t columns, const HierarchyOptions &options = {}) {
@@ -80,9 +87,10 @@ TEST_CASE("hierarchy: voids stay open and spacing places vertices") {
     CHECK(whole.mesh.statistics().boundary_loops == 2);
     float east = 0;
     float north = 0;
-    for (const auto &position : whole.mesh.positions()) {
-        east = std::max(east, position[0]);
-        north = std::max(north, position[1]);
+    const decimesh::Span<const float> positions = whole.mesh.positions();
+    for (std::size_t place = 0; place < positions.size(); place += 3) {
+        east = std::max(east, positions[place]);
+        north = std::max(north, positions[place + 1]);
     }
     CHECK(east == 78);
     CHECK(north == 87);
@@ -101,10 +109,11 @@ TEST_CASE("hierarchy: weights count and threads change nothing") {
     options.threads = 3;
     const Taken three = Hierarchy::build(heights, 129, options).at(Detail::ratio(0.1));
     CHECK(one.mesh.vertex_count() == three.mesh.vertex_count());
-    CHECK(std::equal(one.mesh.triangles().begin(), one.mesh.triangles().end(), three.mesh.triangles().begin()));
+    CHECK(are_same(one.mesh.indices(), three.mesh.indices()));
     std::size_t west = 0;
-    for (const auto &position : one.mesh.positions()) {
-        west += position[0] < 64 ? 1 : 0;
+    const decimesh::Span<const float> positions = one.mesh.positions();
+    for (std::size_t place = 0; place < positions.size(); place += 3) {
+        west += positions[place] < 64 ? 1 : 0;
     }
     CHECK(west > one.mesh.vertex_count() * 6 / 10);
 }
@@ -140,6 +149,34 @@ TEST_CASE("hierarchy: what is no field is an error that says why") {
     CHECK(decimesh_hierarchy_at(nullptr, 0, 1, 1, &mesh, nullptr) == DECIMESH_ERROR_NULL);
     CHECK(decimesh_hierarchy_at(hierarchy.get(), 0, 1, 1, nullptr, nullptr) == DECIMESH_ERROR_NULL);
     CHECK(mesh == nullptr);
+}
+
+TEST_CASE("hierarchy: a free triangulation is closer") {
+    const Hierarchy hierarchy = Hierarchy::build(hills(129, 129), 129);
+    const Taken nested = hierarchy.at(Detail::vertices(800));
+    const Taken free = hierarchy.tin(800);
+    CHECK(free.mesh.vertex_count() <= 800);
+    CHECK(free.rms < nested.rms);
+    const Taken fitted = hierarchy.tin(800, true);
+    CHECK(fitted.rms < free.rms);
+    CHECK(fitted.mesh.statistics().boundary_loops == 1);
+    int calls = 0;
+    CHECK_THROWS_AS(hierarchy.tin(800, true, [&](float) { return ++calls < 2; }), decimesh::Cancelled);
+}
+
+TEST_CASE("hierarchy: a file holds all of it") {
+    const auto file = std::filesystem::temp_directory_path() / "decimesh-tests-hills.drd";
+    const std::string path = file.string();
+    const Hierarchy hierarchy = Hierarchy::build(hills(50, 70), 50);
+    hierarchy.write(path);
+    const Hierarchy read = Hierarchy::read(path);
+    CHECK(read.samples() == hierarchy.samples());
+    const Taken one = hierarchy.at(Detail::ratio(0.2));
+    const Taken other = read.at(Detail::ratio(0.2));
+    CHECK(one.rms == other.rms);
+    CHECK(are_same(one.mesh.indices(), other.mesh.indices()));
+    std::filesystem::remove(file);
+    CHECK_THROWS_AS(Hierarchy::read(path), decimesh::Error);
 }
 
 TEST_CASE("hierarchy: progress ends it") {

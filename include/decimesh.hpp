@@ -781,11 +781,20 @@ public:
     /// if they do not make whole rows, as for all that is wrong with them.
     static Hierarchy build(Span<const float> heights, std::size_t columns, const HierarchyOptions &options = {});
 
+    /// The hierarchy in a file that `write` made. `path` is UTF-8.
+    static Hierarchy read(const std::string &path);
+    /// Writes a file as docs/hierarchy-format.md describes it, whole or not at all.
+    void write(const std::string &path) const;
+
     /// How many samples are not void.
     std::size_t samples() const noexcept { return decimesh_hierarchy_samples(get()); }
 
     /// The mesh with as much detail as is wanted, and more where a sample would be farther from it than `max_error`.
     Taken at(const Detail &wanted, double max_error = std::numeric_limits<double>::infinity()) const;
+
+    /// A free triangulation of at most so many vertices: closer to the heights than what `at` gives with as many, but
+    /// not nested in finer ones. With `least_squares` its heights are fitted to all samples.
+    Taken tin(std::size_t vertices, bool least_squares = false, const Progress &progress = {}) const;
 
     /// The handle of the C interface.
     const decimesh_hierarchy *get() const noexcept { return handle_.get(); }
@@ -1365,6 +1374,31 @@ inline Taken Hierarchy::at(const Detail &wanted, double max_error) const {
     detail::check(decimesh_hierarchy_at(get(), static_cast<decimesh_detail>(wanted.kind()), wanted.value(), max_error,
                                         &mesh, &report));
     return {Mesh::adopt(mesh), report.rms, report.max_error, report.certified_gap};
+}
+
+inline Taken Hierarchy::tin(std::size_t vertices, bool least_squares, const Progress &progress) const {
+    auto report = detail::sized<decimesh_hierarchy_report>();
+    decimesh_hierarchy_options raw{};
+    detail::Watcher watcher(progress);
+    watcher.attach(raw);
+    decimesh_mesh *mesh = nullptr;
+    const decimesh_status status = decimesh_hierarchy_tin(get(), vertices, least_squares ? 1 : 0, raw.progress,
+                                                          raw.progress_user, &mesh, &report);
+    Mesh owned = Mesh::adopt(mesh);
+    watcher.check(status);
+    return {std::move(owned), report.rms, report.max_error, report.certified_gap};
+}
+
+inline Hierarchy Hierarchy::read(const std::string &path) {
+    Hierarchy hierarchy;
+    decimesh_hierarchy *handle = nullptr;
+    detail::check(decimesh_hierarchy_read(path.c_str(), &handle));
+    hierarchy.handle_.reset(handle);
+    return hierarchy;
+}
+
+inline void Hierarchy::write(const std::string &path) const {
+    detail::check(decimesh_hierarchy_write(get(), path.c_str()));
 }
 
 inline Progressive Progressive::build(MeshView mesh, const std::vector<Target> &targets, const Options &options) {

@@ -1,16 +1,15 @@
 //! `decimesh_hierarchy`: every rate of a field of heights from one run.
 
 use super::entry::entry;
-use super::mesh::decimesh_mesh;
+use super::mesh::{decimesh_mesh, text};
 use super::progress::{decimesh_progress, monitor};
 use super::simplify::{foreign, switch};
 use super::status::{
     DECIMESH_ERROR_OPTION, DECIMESH_ERROR_OUT_OF_MEMORY, DECIMESH_ERROR_OVERFLOW, Failure, decimesh_status,
 };
 use super::structs::{self, Versioned};
-use crate::monitor::Monitor;
 use crate::rate_distortion::{self, Approximation, Decomposition, DecompositionOptions, Detail, HeightField};
-use std::ffi::c_void;
+use std::ffi::{c_char, c_void};
 use std::ptr;
 
 /// How much of a hierarchy is wanted.
@@ -31,6 +30,17 @@ pub const DECIMESH_DETAIL_MAX_ERROR: decimesh_detail = 3;
 /// A const decimesh_hierarchy* may be used from many threads at once.
 pub struct decimesh_hierarchy {
     decomposition: Decomposition,
+}
+
+impl decimesh_hierarchy {
+    /// Hands a hierarchy to the caller.
+    ///
+    /// # Safety
+    /// `place` is the caller's to write to.
+    unsafe fn give(decomposition: Decomposition, place: *mut *mut Self) {
+        // SAFETY: as the caller of this function promises.
+        unsafe { place.write(Box::into_raw(Box::new(Self { decomposition }))) };
+    }
 }
 
 /// What heights are, and how they are decomposed. decimesh_hierarchy_options_init() sets the defaults.
@@ -122,16 +132,14 @@ impl decimesh_hierarchy_options {
         Ok(field.with_importance(importance)?)
     }
 
-    fn decomposition(&self) -> DecompositionOptions {
-        let Self { sweeps, max_sweeps, gap, threads, .. } = *self;
-        DecompositionOptions { sweeps, max_sweeps, gap, threads: threads as usize }
-    }
-
     /// # Safety
     /// progress may be called on this thread with its user's pointer.
-    unsafe fn monitor(&self) -> Monitor<'static> {
+    unsafe fn decompose(&self, field: HeightField) -> Result<Decomposition, Failure> {
+        let Self { sweeps, max_sweeps, gap, threads, .. } = *self;
+        let options = DecompositionOptions { sweeps, max_sweeps, gap, threads: threads as usize };
         // SAFETY: as the caller of this function promises.
-        unsafe { monitor(self.progress, self.progress_user) }
+        let mut monitor = unsafe { monitor(self.progress, self.progress_user) };
+        Ok(Decomposition::new(field, &options, &mut monitor)?)
     }
 }
 
@@ -192,6 +200,7 @@ impl From<rate_distortion::Error> for Failure {
             Error::NotFinite { .. } => DECIMESH_ERROR_NOT_FINITE,
             Error::Cancelled(_) => DECIMESH_ERROR_CANCELLED,
             Error::Threads(_) => DECIMESH_ERROR_THREADS,
+            Error::Tile { .. } => DECIMESH_ERROR_IO,
             Error::SampleCount { .. } | Error::Spacing { .. } | Error::Target { .. } => DECIMESH_ERROR_OPTION,
         };
         Self::new(status, error.to_string())
@@ -247,9 +256,41 @@ pub unsafe extern "C" fn decimesh_hierarchy_create(
         unsafe {
             let options = decimesh_hierarchy_options::read(options)?;
             let field = options.field(heights, columns, rows)?;
-            let decomposition = Decomposition::new(field, &options.decomposition(), &mut options.monitor())?;
-            hierarchy.write(Box::into_raw(Box::new(decimesh_hierarchy { decomposition })));
+            decimesh_hierarchy::give(options.decompose(field)?, hierarchy);
         }
+        Ok(())
+    })
+}
+
+/// Writes a hierarchy to a file, as docs/hierarchy-format.md describes it. The usual extension is .drd.
+///
+/// The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8. Fails with _NULL, _UTF8 or
+/// _IO. Linear in the samples; any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_hierarchy_write(
+    hierarchy: *const decimesh_hierarchy,
+    path: *const c_char,
+) -> decimesh_status {
+    entry!([hierarchy, path] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe { (*hierarchy).decomposition.write(text(path)?)? };
+        Ok(())
+    })
+}
+
+/// Reads a hierarchy from such a file. path is UTF-8.
+///
+/// *hierarchy receives the hierarchy, which the caller ends with decimesh_hierarchy_destroy(). Fails with _NULL,
+/// _UTF8, _IO or _FORMAT (the text says at which byte). Time and memory are in proportion to what is read, and about
+/// half of what decimesh_hierarchy_create() takes; any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_hierarchy_read(
+    path: *const c_char,
+    hierarchy: *mut *mut decimesh_hierarchy,
+) -> decimesh_status {
+    entry!([path, hierarchy] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe { decimesh_hierarchy::give(Decomposition::read(text(path)?)?, hierarchy) };
         Ok(())
     })
 }
@@ -316,6 +357,48 @@ pub unsafe extern "C" fn decimesh_hierarchy_at(
                 structs::write(report, size, &describe(decomposition, &taken));
             }
             decimesh_mesh::give(taken.mesh, mesh);
+        }
+        Ok(())
+    })
+}
+
+/// A free triangulation of at most so many vertices: 2 to 6 decibels closer to the heights than what
+/// decimesh_hierarchy_at() gives with as many, but not nested in finer ones. With least_squares 1 its heights are
+/// fitted to all samples, and are no longer those of samples themselves; with 0 they are.
+///
+/// The rim of what is known is covered exactly, which may take more vertices than asked for. progress may be NULL.
+/// *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(). report may be NULL; its
+/// certified_gap becomes infinite. Fails with _NULL, _OPTION, _STRUCT_SIZE or _CANCELLED. About linear in the
+/// samples, and n log n in the vertices. Any thread; progress is told on the calling one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_hierarchy_tin(
+    hierarchy: *const decimesh_hierarchy,
+    vertices: usize,
+    least_squares: i32,
+    progress: decimesh_progress,
+    progress_user: *mut c_void,
+    mesh: *mut *mut decimesh_mesh,
+    report: *mut decimesh_hierarchy_report,
+) -> decimesh_status {
+    entry!([hierarchy, mesh] {
+        let least_squares = switch("least_squares", least_squares)?;
+        // SAFETY: neither is NULL, and the caller vouches for what the pointers point to.
+        unsafe {
+            let decomposition = &(*hierarchy).decomposition;
+            let size = if report.is_null() { 0 } else { structs::size(report)? };
+            let tin = decomposition.tin(vertices, least_squares, &mut monitor(progress, progress_user))?;
+            if !report.is_null() {
+                let own = decimesh_hierarchy_report {
+                    vertices: tin.samples.len() as u64,
+                    triangles: tin.triangles.len() as u64,
+                    rms: tin.error.rms(),
+                    max_error: tin.error.maximum,
+                    certified_gap: f64::INFINITY,
+                    ..decimesh_hierarchy_report::initial()
+                };
+                structs::write(report, size, &own);
+            }
+            decimesh_mesh::give(tin.to_mesh(decomposition.field()), mesh);
         }
         Ok(())
     })

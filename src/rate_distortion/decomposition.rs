@@ -281,7 +281,7 @@ impl Decomposition {
 
     /// How many vertices have to go so that the others cost no more than that.
     fn removed_for_cost(&self, limit: f64) -> Result<usize, Error> {
-        if !(limit >= 0.0) {
+        if limit.is_nan() || limit < 0.0 {
             return Err(Error::Target { what: "cost", value: limit, expected: "it must not be negative" });
         }
         let cost = |&vertex: &u32| self.costs.as_ref().map_or(1.0, |costs| f64::from(costs[vertex as usize]));
@@ -376,6 +376,11 @@ impl Decomposition {
         extract(&self.lattice, |vertex| key(&self.slopes, vertex) >= cut)
     }
 
+    /// The mesh of so many vertices.
+    pub(super) fn places(&self, vertices: usize) -> Extract {
+        self.extract(self.removed_for(vertices))
+    }
+
     fn approximation(&self, removed: usize) -> Approximation {
         self.finish(self.extract(removed), self.squared_error(removed), removed)
     }
@@ -397,7 +402,7 @@ impl Decomposition {
     fn finish(&self, extract: Extract, squared_error: f64, removed: usize) -> Approximation {
         let columns = self.field().columns() as u32;
         Approximation {
-            mesh: extract.to_mesh(&self.lattice),
+            mesh: extract.to_mesh(self.field()),
             samples: extract.places.iter().map(|[x, y]| y * columns + x).collect(),
             squared_error,
             rms: self.root_mean(squared_error),

@@ -5,6 +5,7 @@ mod decompose;
 mod extract;
 mod plot;
 mod report;
+mod tiles;
 mod tin;
 
 use std::path::Path;
@@ -13,9 +14,10 @@ use std::time::Instant;
 use decimesh::Mesh;
 use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, Error, HeightFileError};
 
-pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments};
+pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments, TilesArguments};
 pub(crate) use decompose::run as decompose;
 pub(crate) use extract::run as extract;
+pub(crate) use tiles::run as tiles;
 
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;

@@ -1,13 +1,9 @@
 //! `decimesh terrain --tin`: a mesh of the hierarchy, set free.
 
-use decimesh::rate_distortion::tin::{Tin, reduce};
+use decimesh::Monitor;
 use decimesh::rate_distortion::{Approximation, Decomposition, Detail};
-use decimesh::{Attributes, Mesh, Monitor};
 
 use crate::failure::Failure;
-
-/// How many times the vertices asked for are taken from the hierarchy to choose from.
-const SUPPLY: usize = 2;
 
 /// Fails where a number of vertices is not what was asked for.
 pub(super) fn check(detail: Detail) -> Result<(), Failure> {
@@ -29,25 +25,14 @@ pub(super) fn take(
         // The hierarchy knows what a ratio is, and refuses what is none.
         other => decomposition.at(other)?.samples.len(),
     };
-    let supply = decomposition.at(Detail::Vertices(wanted.saturating_mul(SUPPLY)))?;
+    let tin = decomposition.tin(wanted, least_squares, monitor)?;
     let field = decomposition.field();
     let columns = field.columns() as u32;
-    let places: Vec<_> = supply.samples.iter().map(|&sample| [sample % columns, sample / columns]).collect();
-    let tin = reduce(field, &places, supply.mesh.triangles(), wanted, least_squares, monitor)?;
-    let Tin { samples: places, heights, triangles, error } = tin;
-    let samples = places.iter().map(|[column, row]| row * columns + column).collect();
-    let places = || places.iter().map(|place| place.map(|part| part as usize));
-    let positions =
-        places().zip(heights).map(|([column, row], height)| field.position(column, row, height)).collect();
-    let uvs = places().map(|[column, row]| field.uv(column, row)).collect();
-    let attributes = Attributes { uvs: Some(uvs), ..Attributes::default() };
-    let mesh = Mesh::with_attributes(positions, triangles, attributes)
-        .map_err(|error| Failure::Unexpected(error.to_string()))?;
     Ok(Approximation {
-        mesh,
-        samples,
-        squared_error: error.squared,
-        rms: error.rms(),
+        mesh: tin.to_mesh(field),
+        samples: tin.samples.iter().map(|[column, row]| row * columns + column).collect(),
+        squared_error: tin.error.squared,
+        rms: tin.error.rms(),
         certified_gap: f64::INFINITY,
     })
 }
