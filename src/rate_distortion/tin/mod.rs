@@ -55,7 +55,8 @@ pub struct Tin {
 /// The error is never above that of the triangulation with as many vertices or fewer; where a fit does not lower
 /// it in the precision of the heights, there is none.
 ///
-/// About linear in the samples covered, and `n log n` in the vertices.
+/// There may be fewer than 2^30 triangles to begin with. About linear in the samples covered, and `n log n` in the
+/// vertices.
 pub fn reduce(
     field: &HeightField,
     vertices: &[[u32; 2]],
