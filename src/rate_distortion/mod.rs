@@ -11,7 +11,8 @@ mod layout;
 mod max_error;
 mod raster;
 pub mod tiles;
-pub mod tin;
+#[cfg_attr(not(test), expect(dead_code, reason = "decompositions are to call it"))]
+mod tin;
 pub mod vertical;
 
 #[cfg(test)]
@@ -20,4 +21,5 @@ mod tests;
 pub use decomposition::{Approximation, Decomposition, DecompositionOptions, Detail};
 pub use error::Error;
 pub use height_field::HeightField;
+pub use tin::Tin;
 pub use vertical::VerticalError;

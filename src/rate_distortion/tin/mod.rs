@@ -57,7 +57,7 @@ pub struct Tin {
 ///
 /// There may be fewer than 2^30 triangles to begin with. About linear in the samples covered, and `n log n` in the
 /// vertices.
-pub fn reduce(
+pub(crate) fn reduce(
     field: &HeightField,
     vertices: &[[u32; 2]],
     triangles: &[[u32; 3]],

@@ -382,7 +382,7 @@ fn samples_without_weight_do_not_matter() {
 
 #[test]
 fn heights_as_great_as_they_can_be_are_no_trouble() {
-    let height = |x: usize, y: usize| if (x + y) % 2 == 0 { f32::MAX } else { -f32::MAX };
+    let height = |x: usize, y: usize| if (x + y).is_multiple_of(2) { f32::MAX } else { -f32::MAX };
     let start = Start::new([6, 6], 2, |_, _| true, None, height);
     let tin = start.reduce(12, true);
     check(&start, &tin);
