@@ -14,6 +14,7 @@ mod progress;
 mod render;
 mod report;
 mod simplify;
+mod terrain;
 
 use std::process::ExitCode;
 
@@ -25,6 +26,10 @@ fn main() -> ExitCode {
     let result = match &Arguments::parse().command {
         Command::Simplify(arguments) => simplify::run(arguments),
         Command::Levels(arguments) => levels::run(arguments),
+        Command::Terrain(arguments) => terrain::run(arguments),
+        Command::TerrainTiles(arguments) => terrain::tiles(arguments),
+        Command::Decompose(arguments) => terrain::decompose(arguments),
+        Command::Extract(arguments) => terrain::extract(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Play(arguments) => play::run(arguments),
         Command::Info(arguments) => info::run(arguments),

@@ -356,6 +356,36 @@ proptest! {
         prop_assert_eq!(rows.iter().map(|row| row.mesh.triangles().len()).sum::<usize>(), mesh.triangles.len());
     }
 
+    /// With costs, what is left at a slope has the least sum of error and slope times cost of all conforming meshes.
+    #[test]
+    fn costs_are_on_the_hull(heights in prop::collection::vec(-5.0f32..5.0, 25), costs in prop::collection::vec(0.2f32..4.0, 25)) {
+        let field = HeightField::new(5, 5, heights, None).unwrap();
+        let options = DecompositionOptions { max_sweeps: 200, ..DecompositionOptions::default() };
+        let decomposition = Decomposition::with_costs(field, &costs, &options, &mut Monitor::silent()).unwrap();
+        let lattice = decomposition.lattice();
+        let layout = lattice.layout();
+        let cost = |vertex: usize| {
+            let Site { x, y, .. } = layout.site(vertex);
+            f64::from(costs[y * 5 + x])
+        };
+        let unit = lattice.squared_unit();
+        let deltas: Vec<f64> = deltas(lattice).into_iter().map(|delta| f64::from(delta) * unit).collect();
+        for slope in [0.1, 1.0, 10.0] {
+            let gain = |vertex: usize| (deltas[vertex] - slope * cost(vertex)) as f32;
+            let gains: Vec<f32> = (0..layout.vertices()).map(gain).collect();
+            let best = best_of_all(layout, &gains).into_iter().fold(f64::INFINITY, f64::min);
+            let order = decomposition.order().iter().map(|&vertex| f64::from(gains[vertex as usize]));
+            let made = order.scan(0.0, |sum, gain| { *sum += gain; Some(*sum) }).fold(0.0, f64::min);
+            prop_assert!(made <= best + 0.01 * (1.0 + best.abs()), "{made} {best}");
+        }
+        let half = costs.iter().map(|&cost| f64::from(cost)).sum::<f64>() / 2.0;
+        let mesh = decomposition.at(Detail::Cost(half)).unwrap();
+        let columns = mesh.samples.iter().map(|&sample| (sample % 5, sample / 5));
+        let inner = columns.filter(|&(x, y)| layout.level_at(x as usize, y as usize) > 0);
+        let left: f64 = inner.map(|(x, y)| f64::from(costs[(y * 5 + x) as usize])).sum();
+        prop_assert!(left <= half + 1e-4);
+    }
+
     #[test]
     fn threads_change_nothing(seed in any::<u64>()) {
         let mut random = crate::random::SplitMix64::at(seed, 0);

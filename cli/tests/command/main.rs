@@ -7,4 +7,5 @@ mod info;
 mod levels;
 mod play;
 mod simplify;
+mod terrain;
 mod workbench;

@@ -25,9 +25,12 @@ mod surface;
 mod tests;
 mod triangulation;
 
+use super::decomposition::Decomposition;
 use super::error::Error;
+use super::extract::mesh_over;
 use super::height_field::HeightField;
 use super::vertical::{VerticalError, measure};
+use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use residual::Samples;
 use surface::Surface;
@@ -44,6 +47,29 @@ pub struct Tin {
     pub triangles: Vec<[u32; 3]>,
     /// How far it is from the field, measured at all samples.
     pub error: VerticalError,
+}
+
+impl Decomposition {
+    /// A free triangulation of at most so many vertices, made of the mesh of twice as many: closer to the field than
+    /// the mesh of as many that [`Decomposition::at`] gives, by 2 to 6 decibels, but not nested in finer ones. With
+    /// `least_squares` heights are fitted to the samples, and are no longer those of samples themselves.
+    ///
+    /// The rim of what is known is covered exactly, which may take more vertices than asked for. About linear in the
+    /// samples, and `n log n` in the vertices: 1 to 1.5 s for a million samples.
+    pub fn tin(&self, vertices: usize, least_squares: bool, monitor: &mut Monitor) -> Result<Tin, Error> {
+        let start = self.places(vertices.saturating_mul(START));
+        reduce(self.field(), &start.places, &start.triangles, vertices, least_squares, monitor)
+    }
+}
+
+/// How many times the vertices asked for a triangulation begins with.
+const START: usize = 2;
+
+impl Tin {
+    /// As a mesh over its field: east, north, up, with texture coordinates.
+    pub fn to_mesh(&self, field: &HeightField) -> Mesh {
+        mesh_over(field, &self.samples, &self.heights, self.triangles.clone())
+    }
 }
 
 /// Reduces a triangulation to `target` vertices, or to as few as it can, and lowers its squared error.
