@@ -68,7 +68,7 @@ struct RunReport<'a> {
 pub(crate) fn run(arguments: &TilesArguments) -> Result<(), Failure> {
     let TilesArguments { input, directory, common, format, .. } = arguments;
     check_format(&directory.join(format!("tile.{format}")))?;
-    for path in &common.report {
+    if let Some(path) = &common.report {
         // The directory of the tiles is made later, and is as good as there.
         if directory_of(path) != directory {
             crate::files::check_directory(path)?;
