@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use decimesh::capi::decimesh_status_name;
 
 /// In the order in which a reader wants them.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 15] = [
     "version",
     "status",
     "progress",
@@ -25,6 +25,7 @@ const SOURCES: [&str; 14] = [
     "nested",
     "progressive",
     "player",
+    "hierarchy",
 ];
 
 fn root() -> &'static Path {
