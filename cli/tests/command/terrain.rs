@@ -51,7 +51,7 @@ fn largest_error(mesh: &Mesh, [dx, dy]: [f32; 2]) -> f64 {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         // Rows count southwards.
         assert!(area < 0.0, "counter-clockwise from above");
-        for sample in 0..COLUMNS * ROWS {
+        for (sample, covered) in covered.iter_mut().enumerate() {
             let (x, y) = ((sample % COLUMNS) as f64, (sample / COLUMNS) as f64);
             let part =
                 |p: [f64; 3], q: [f64; 3]| ((q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])) / area;
@@ -60,7 +60,7 @@ fn largest_error(mesh: &Mesh, [dx, dy]: [f32; 2]) -> f64 {
                 let surface = parts[0] * a[2] + parts[1] * b[2] + parts[2] * c[2];
                 let sample_height = height(sample % COLUMNS, sample / COLUMNS);
                 largest = largest.max((surface - f64::from(sample_height)).abs());
-                covered[sample] = true;
+                *covered = true;
             }
         }
     }
