@@ -4,10 +4,10 @@
 //! But it knows best which samples to begin with. So a mesh of somewhat more vertices than asked for is taken from
 //! it, and is then set free:
 //!
-//! 1. edges are flipped while that lowers the squared error ([`flips`]);
-//! 2. vertices are taken away, the cheapest first, edges around each flipped ([`collapses`]);
-//! 3. vertices move to samples next to theirs while that lowers the error, edges around each flipped ([`moves`]);
-//! 4. where wished for, the heights are fitted by least squares ([`fit`]).
+//! 1. edges are flipped while that lowers the squared error (`flips`);
+//! 2. vertices are taken away, the cheapest first, edges around each flipped (`collapses`);
+//! 3. vertices move to samples next to theirs while that lowers the error, edges around each flipped (`moves`);
+//! 4. where wished for, the heights are fitted by least squares (`fit`).
 //!
 //! All of this is about vertical distances at samples, weighted by their importance; the spacing of the grid
 //! plays no part. The paper that the hierarchy is after has nothing of the kind: this hybrid of hierarchy and free
