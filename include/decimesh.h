@@ -53,6 +53,15 @@
 #define DECIMESH_VERTEX_PRIORITIZE 4
 
 /**
+ * Heights over a grid, decomposed: the order in which samples go, from all of them to a few, such that
+ * whatever is left has about the least squared error of all conforming 4-8 meshes of as many vertices.
+ * Immutable.
+ *
+ * A const decimesh_hierarchy* may be used from many threads at once.
+ */
+typedef struct decimesh_hierarchy decimesh_hierarchy;
+
+/**
  * Levels of detail of one mesh, from fine to coarse: immutable.
  *
  * A const decimesh_levels* may be used from many threads at once.
@@ -722,6 +731,101 @@ typedef struct decimesh_nested_level {
 } decimesh_nested_level;
 
 /**
+ * What heights are, and how they are decomposed. decimesh_hierarchy_options_init() sets the defaults.
+ */
+typedef struct decimesh_hierarchy_options {
+    /**
+     * sizeof(decimesh_hierarchy_options), as decimesh_hierarchy_options_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Threads to use, 0: all that the machine has. The result is the same; by default 0.
+     */
+    uint32_t threads;
+    /**
+     * 1: samples that are no_data are void: nothing is known there, and no triangle covers them. By default 0.
+     */
+    int32_t has_no_data;
+    /**
+     * What void samples have; may be no number, and is then that of all samples that are none.
+     */
+    float no_data;
+    /**
+     * How far columns are apart, in the unit of the heights: positive; by default 1.
+     */
+    float column_spacing;
+    /**
+     * How far rows are apart; by default 1.
+     */
+    float row_spacing;
+    /**
+     * For each sample how much its squared error counts: finite, not negative; NULL: 1 for all.
+     */
+    const float *importance;
+    /**
+     * Sweeps before the gap is looked at, and between two looks; by default 8.
+     */
+    uint32_t sweeps;
+    /**
+     * Sweeps at most; by default 64.
+     */
+    uint32_t max_sweeps;
+    /**
+     * How far the squared error may be above the least possible one, in decibels, where a fifth of the
+     * vertices is left, to be good enough; by default 0.03.
+     */
+    double gap;
+    /**
+     * Is told of progress, and can cancel; NULL for none.
+     */
+    decimesh_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *progress_user;
+} decimesh_hierarchy_options;
+
+/**
+ * What was taken from a hierarchy. decimesh_hierarchy_report_init() sets it up.
+ */
+typedef struct decimesh_hierarchy_report {
+    /**
+     * sizeof(decimesh_hierarchy_report), as decimesh_hierarchy_report_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Always 0.
+     */
+    uint32_t reserved;
+    /**
+     * Vertices of the mesh.
+     */
+    uint64_t vertices;
+    /**
+     * Triangles of the mesh.
+     */
+    uint64_t triangles;
+    /**
+     * Root of the mean squared vertical error of all samples, weighted where they have an importance.
+     */
+    double rms;
+    /**
+     * Largest vertical error of a sample.
+     */
+    double max_error;
+    /**
+     * How far, in decibels, the squared error can be above that of the best conforming mesh of as many
+     * vertices: proven for these heights. Infinite if nothing is known.
+     */
+    double certified_gap;
+} decimesh_hierarchy_report;
+
+/**
+ * How much of a hierarchy is wanted.
+ */
+typedef int32_t decimesh_detail;
+
+/**
  * The call did what it says.
  */
 #define DECIMESH_OK 0
@@ -916,6 +1020,26 @@ typedef struct decimesh_nested_level {
  * Every further collapse would change the topology, fold a face over, or move a locked vertex.
  */
 #define DECIMESH_STOPPED_BY_STUCK 2
+
+/**
+ * At most so many vertices, and as many as there can be below.
+ */
+#define DECIMESH_DETAIL_VERTICES 0
+
+/**
+ * So large a part of the samples that are not void, above 0 and at most 1.
+ */
+#define DECIMESH_DETAIL_RATIO 1
+
+/**
+ * As few vertices as there are with this root mean square of the vertical error over all samples.
+ */
+#define DECIMESH_DETAIL_RMS 2
+
+/**
+ * As few vertices as there can be with no sample farther from the surface, vertically.
+ */
+#define DECIMESH_DETAIL_MAX_ERROR 3
 
 #ifdef __cplusplus
 extern "C" {
@@ -1693,6 +1817,115 @@ decimesh_status decimesh_player_coarser(struct decimesh_player *player);
  */
 decimesh_status decimesh_player_go_to(struct decimesh_player *player,
                                       size_t step);
+
+/**
+ * Sets the defaults. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_hierarchy_options), as the caller was compiled: no more is written.
+ */
+void decimesh_hierarchy_options_init(struct decimesh_hierarchy_options *options,
+                                     size_t struct_size);
+
+/**
+ * Sets struct_size and makes all else 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_hierarchy_report), as the caller was compiled: no more is written.
+ */
+void decimesh_hierarchy_report_init(struct decimesh_hierarchy_report *report,
+                                    size_t struct_size);
+
+/**
+ * Decomposes heights: columns times rows of them, row by row, the northernmost row first.
+ *
+ * Each has two at least; all heights are finite but those that options->no_data makes void, and one at least is
+ * not void. options may be NULL: the defaults. heights and options->importance are copied.
+ *
+ * *hierarchy receives the hierarchy, which the caller ends with decimesh_hierarchy_destroy(). Fails with _NULL,
+ * _EMPTY (fewer than two columns or rows, or all void), _OVERFLOW, _NOT_FINITE (the text says where), _OPTION,
+ * _STRUCT_SIZE, _UNKNOWN_OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
+ *
+ * About 0.1 s for a million samples; 24 bytes of memory a sample and two million, and up to half as much again for a grid that
+ * is not of 2^d + 1 columns and rows or has voids; the hierarchy keeps 16. Any thread; progress is told on the
+ * calling one.
+ */
+decimesh_status decimesh_hierarchy_create(const float *heights,
+                                          size_t columns,
+                                          size_t rows,
+                                          const struct decimesh_hierarchy_options *options,
+                                          struct decimesh_hierarchy **hierarchy);
+
+/**
+ * Writes a hierarchy to a file, as docs/hierarchy-format.md describes it. The usual extension is .drd.
+ *
+ * The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8. Fails with _NULL, _UTF8 or
+ * _IO. Linear in the samples; any thread.
+ */
+decimesh_status decimesh_hierarchy_write(const struct decimesh_hierarchy *hierarchy,
+                                         const char *path);
+
+/**
+ * Reads a hierarchy from such a file. path is UTF-8.
+ *
+ * *hierarchy receives the hierarchy, which the caller ends with decimesh_hierarchy_destroy(). Fails with _NULL,
+ * _UTF8, _IO or _FORMAT (the text says at which byte). Time and memory are in proportion to what is read, and about
+ * half of what decimesh_hierarchy_create() takes; any thread.
+ */
+decimesh_status decimesh_hierarchy_read(const char *path,
+                                        struct decimesh_hierarchy **hierarchy);
+
+/**
+ * Ends a hierarchy. NULL is left alone.
+ *
+ * No other thread may use it any more. Meshes taken from it live on.
+ */
+void decimesh_hierarchy_destroy(struct decimesh_hierarchy *hierarchy);
+
+/**
+ * How many samples are not void; 0 for NULL. Constant time; any thread; never fails.
+ */
+size_t decimesh_hierarchy_samples(const struct decimesh_hierarchy *hierarchy);
+
+/**
+ * The mesh with as much detail as is wanted: detail is a DECIMESH_DETAIL_ value, and value how much of it.
+ *
+ * x grows with the column, y falls with the row, z is the height; triangles are counter-clockwise from above, and
+ * texture coordinates those of an image with a pixel a sample. The mesh is conforming, and its vertices are among
+ * those of every finer one; but for a grid that is not of 2^d + 1 columns and rows, which is cut off at its
+ * edges: vertices there may lie between heights. No triangle covers a void.
+ *
+ * No sample is farther than max_error from the surface, vertically: there are more vertices if it takes more.
+ * INFINITY for no such bound.
+ *
+ * *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(). report may be NULL; with it, the
+ * largest error is measured, in time linear in the samples. Fails with _NULL, _ENUM, _OPTION or _STRUCT_SIZE.
+ * Otherwise the time is linear in what comes out for vertices and ratios of a grid of 2^d + 1 columns and rows
+ * without voids, times the logarithm of the samples for others; and n log n in the samples where errors are
+ * bounded. Any thread.
+ */
+decimesh_status decimesh_hierarchy_at(const struct decimesh_hierarchy *hierarchy,
+                                      decimesh_detail detail,
+                                      double value,
+                                      double max_error,
+                                      struct decimesh_mesh **mesh,
+                                      struct decimesh_hierarchy_report *report);
+
+/**
+ * A free triangulation of at most so many vertices: 2 to 6 decibels closer to the heights than what
+ * decimesh_hierarchy_at() gives with as many, but not nested in finer ones. With least_squares 1 its heights are
+ * fitted to all samples, and are no longer those of samples themselves; with 0 they are.
+ *
+ * The rim of what is known is covered exactly, which may take more vertices than asked for. progress may be NULL.
+ * *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(). report may be NULL; its
+ * certified_gap becomes infinite. Fails with _NULL, _OPTION, _STRUCT_SIZE or _CANCELLED. About linear in the
+ * samples, and n log n in the vertices. Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_hierarchy_tin(const struct decimesh_hierarchy *hierarchy,
+                                       size_t vertices,
+                                       int32_t least_squares,
+                                       decimesh_progress progress,
+                                       void *progress_user,
+                                       struct decimesh_mesh **mesh,
+                                       struct decimesh_hierarchy_report *report);
 
 #ifdef __cplusplus
 }  // extern "C"
