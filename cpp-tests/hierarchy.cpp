@@ -113,7 +113,7 @@ TEST_CASE("hierarchy: weights count and threads change nothing") {
     std::size_t west = 0;
     const decimesh::Span<const float> positions = one.mesh.positions();
     for (std::size_t place = 0; place < positions.size(); place += 3) {
-        west += positions[place] < 64 ? 1 : 0;
+        west += positions[place] < 64 ? 1U : 0U;
     }
     CHECK(west > one.mesh.vertex_count() * 6 / 10);
 }
@@ -137,7 +137,8 @@ TEST_CASE("hierarchy: what is no field is an error that says why") {
     options.importance = weights;
     CHECK(status_of({1, 2, 3, 4}, 2, options) == Status::not_finite);
 
-    const Hierarchy hierarchy = Hierarchy::build({1, 2, 3, 4}, 2);
+    const std::vector<float> square = {1, 2, 3, 4};
+    const Hierarchy hierarchy = Hierarchy::build(square, 2);
     CHECK_THROWS_AS(hierarchy.at(Detail::ratio(0)), decimesh::Error);
     CHECK_THROWS_AS(hierarchy.at(Detail::ratio(1.5)), decimesh::Error);
     CHECK_THROWS_AS(hierarchy.at(Detail::rms(-1)), decimesh::Error);
