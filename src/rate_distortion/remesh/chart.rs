@@ -24,14 +24,14 @@ pub(super) struct Foot {
 }
 
 /// A surface on which some collapses have been done and not yet undone.
-pub(super) struct Chart<'a> {
+pub(super) struct Chart {
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     is_there: Vec<bool>,
     /// The faces at each vertex; of a vertex that went, those at it when it did.
     around: Vec<Vec<u32>>,
     /// Those that are still to be undone, the last first.
-    collapses: &'a [HalfEdge],
+    collapses: Vec<HalfEdge>,
     vertices: usize,
 }
 
@@ -42,7 +42,7 @@ struct Ring {
     is_open: bool,
 }
 
-impl<'a> Chart<'a> {
+impl Chart {
     /// The surface of `mesh`, whose vertices are all used; or the first vertex with more than one fan of faces.
     pub(super) fn new(mesh: &Mesh) -> Result<Self, u32> {
         let positions: Vec<DVec3> =
@@ -55,31 +55,35 @@ impl<'a> Chart<'a> {
             }
         }
         let is_there = vec![true; faces.len()];
-        let chart = Self { vertices: positions.len(), positions, faces, is_there, around, collapses: &[] };
+        let chart = Self { vertices: positions.len(), positions, faces, is_there, around, collapses: Vec::new() };
         match (0..chart.vertices as u32).find(|&vertex| chart.ring(vertex).is_none()) {
             Some(vertex) => Err(vertex),
             None => Ok(chart),
         }
     }
 
-    /// Does `collapses`, which keep the topology, one after the other.
-    pub(super) fn collapse(&mut self, collapses: &'a [HalfEdge]) {
-        for &HalfEdge { source, target } in collapses {
-            for face in self.around[source as usize].clone() {
-                let corners = &mut self.faces[face as usize];
-                if corners.contains(&target) {
-                    self.is_there[face as usize] = false;
-                    for corner in corners.iter().filter(|&&corner| corner != source) {
-                        self.around[*corner as usize].retain(|&other| other != face);
-                    }
-                } else {
-                    replace(corners, source, target);
-                    self.around[target as usize].push(face);
+    /// Does a collapse that keeps the topology.
+    pub(super) fn collapse(&mut self, collapse: HalfEdge) {
+        let HalfEdge { source, target } = collapse;
+        for face in self.around[source as usize].clone() {
+            let corners = &mut self.faces[face as usize];
+            if corners.contains(&target) {
+                self.is_there[face as usize] = false;
+                for corner in corners.iter().filter(|&&corner| corner != source) {
+                    self.around[*corner as usize].retain(|&other| other != face);
                 }
+            } else {
+                replace(corners, source, target);
+                self.around[target as usize].push(face);
             }
         }
-        self.vertices -= collapses.len();
-        self.collapses = collapses;
+        self.vertices -= 1;
+        self.collapses.push(collapse);
+    }
+
+    /// How many vertices there are at the moment.
+    pub(super) fn vertices(&self) -> usize {
+        self.vertices
     }
 
     /// The corners of the faces there are at the moment, with their numbers.
@@ -131,9 +135,8 @@ impl<'a> Chart<'a> {
     pub(super) fn refine(&mut self, vertices: usize, feet: &mut [Foot]) {
         let mut riders = Riders::new(self.faces.len(), feet);
         while self.vertices < vertices
-            && let Some((&collapse, before)) = self.collapses.split_last()
+            && let Some(collapse) = self.collapses.pop()
         {
-            self.collapses = before;
             self.vertices += 1;
             self.undo(collapse, &mut riders, feet);
         }

@@ -14,10 +14,18 @@ use super::chart::{Chart, Foot};
 /// Pairs that score less stay triangles: bent by a right angle, or with a side nearly straight on.
 const LEAST_SCORE: f64 = -0.9;
 
-/// Quads over a chart, and where each of their corners is on it.
+/// Quads over a chart, each half of which lies in a face.
 pub(super) struct BaseQuads {
+    pub(super) corners: usize,
     pub(super) quads: Vec<[u32; 4]>,
-    pub(super) feet: Vec<Foot>,
+    /// For each quad the half of its first three corners and that of its third, fourth and first.
+    halves: Vec<[HalfQuad; 2]>,
+}
+
+/// A face, and its weights at three corners of a quad.
+struct HalfQuad {
+    face: u32,
+    weights: [[f64; 3]; 3],
 }
 
 /// A side of a face: from one vertex to the next, and the face.
@@ -31,13 +39,12 @@ impl BaseQuads {
             sides.extend([([a, b], face), ([b, c], face), ([c, a], face)]);
         }
         let paired = pairs(chart, &sides);
-        let mut quads = Self { quads: Vec::new(), feet: Vec::new() };
+        let mut quads = Self { corners: 0, quads: Vec::new(), halves: Vec::new() };
         let mut names = HashMap::new();
         for (face, corners) in chart.faces() {
             match paired.get(&face) {
                 None => {
-                    let middle = Foot { face, weights: [1.0 / 3.0; 3] };
-                    quads.star(chart, &mut names, &corners.map(|corner| (corner, face)), middle);
+                    quads.star(chart, &mut names, &corners.map(|corner| (corner, face)), &corners);
                 }
                 // The pair is done with its first face.
                 Some(&(_, first)) if first != face => {}
@@ -48,51 +55,66 @@ impl BaseQuads {
                         (apex.unwrap_or(from), face)
                     };
                     let polygon = [(from, other), across(other), (to, face), across(face)];
-                    quads.star(chart, &mut names, &polygon, between(chart, face, [from, to]));
+                    quads.star(chart, &mut names, &polygon, &[from, to]);
                 }
             }
         }
         quads
     }
 
-    /// The quads around `middle` of a polygon; with each of its vertices comes the face at the side that follows.
+    /// The quads around the middle of `middle` in a polygon; with each of its vertices comes the face at the side that
+    /// follows.
     fn star(
         &mut self,
         chart: &Chart,
         names: &mut HashMap<[u32; 2], u32>,
         polygon: &[(u32, u32)],
-        middle: Foot,
+        middle: &[u32],
     ) {
-        let centre = self.corner(middle);
+        let centre = self.corner();
         let count = polygon.len();
-        let corners: Vec<[u32; 2]> = (0..count)
-            .map(|i| {
-                let ((vertex, face), (next, _)) = (polygon[i], polygon[(i + 1) % count]);
-                let side = [vertex.min(next), vertex.max(next)];
-                // A vertex goes by the side from itself to itself.
-                let mut named = |key: [u32; 2]| {
-                    *names.entry(key).or_insert_with(|| self.corner(between(chart, face, key)))
-                };
-                [named([vertex; 2]), named(side)]
-            })
-            .collect();
+        // A vertex goes by the side from itself to itself.
+        let sides: Vec<[u32; 2]> = (0..count).map(|i| [polygon[i].0, polygon[(i + 1) % count].0]).collect();
+        let mut name = |[a, b]: [u32; 2]| {
+            *names.entry([a.min(b), a.max(b)]).or_insert_with(|| self.corner())
+        };
+        let corners: Vec<[u32; 2]> = sides.iter().map(|&side| [name([side[0]; 2]), name(side)]).collect();
         for i in 0..count {
-            let [corner, side] = corners[i];
-            let [_, side_before] = corners[(i + count - 1) % count];
-            self.quads.push([corner, side, centre, side_before]);
+            let before = (i + count - 1) % count;
+            self.quads.push([corners[i][0], corners[i][1], centre, corners[before][1]]);
+            let (vertex, face) = polygon[i];
+            let face_before = polygon[before].1;
+            let half = |face, parts: [&[u32]; 3]| {
+                HalfQuad { face, weights: parts.map(|part| middle_of(chart, face, part)) }
+            };
+            self.halves.push([
+                half(face, [&[vertex], &sides[i], middle]),
+                half(face_before, [middle, &sides[before], &[vertex]]),
+            ]);
         }
     }
 
-    fn corner(&mut self, foot: Foot) -> u32 {
-        self.feet.push(foot);
-        self.feet.len() as u32 - 1
+    fn corner(&mut self) -> u32 {
+        self.corners += 1;
+        self.corners as u32 - 1
+    }
+
+    /// The point at a place in a quad, whose sides are `side` long.
+    pub(super) fn foot(&self, quad: u32, [x, y]: [u32; 2], side: u32) -> Foot {
+        let [lower, upper] = &self.halves[quad as usize];
+        let part = |length: u32| f64::from(length) / f64::from(side);
+        let (half, parts) = match x >= y {
+            true => (lower, [part(side - x), part(x - y), part(y)]),
+            false => (upper, [part(x), part(y - x), part(side - y)]),
+        };
+        let weight = |corner: usize| (0..3).map(|k| parts[k] * half.weights[k][corner]).sum();
+        Foot { face: half.face, weights: [weight(0), weight(1), weight(2)] }
     }
 }
 
-/// The middle of a side of a face.
-fn between(chart: &Chart, face: u32, ends: [u32; 2]) -> Foot {
-    let half = |vertex: u32| 0.5 * ends.iter().filter(|&&end| end == vertex).count() as f64;
-    Foot { face, weights: chart.names(face).map(half) }
+/// The weights of the middle of some of the vertices of a face.
+fn middle_of(chart: &Chart, face: u32, vertices: &[u32]) -> [f64; 3] {
+    chart.names(face).map(|name| f64::from(u8::from(vertices.contains(&name))) / vertices.len() as f64)
 }
 
 /// For each face of a pair the side of the one of lower number along which it is paired.

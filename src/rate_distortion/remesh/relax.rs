@@ -1,18 +1,17 @@
-//! The vertices of a subdivision on the surface: brought in level by level, and spread evenly over it.
+//! The vertices of a subdivision on the surface, spread evenly over it.
 //!
-//! A new vertex is the point of the surface near the middle of the edge, or the square, that it halves. Then vertices
-//! move, on the surface, to the centre of the squares around them, by area, so that large squares shrink and small
-//! ones grow, but never so that a triangle folds over that did not, or that narrow ones become narrower.
+//! Vertices move, on the surface, to the centre of the squares around them, by area, so that large squares shrink and
+//! small ones grow; but never so that a triangle folds over that did not, or that narrow ones become narrower.
 
 use glam::DVec3;
 
 use super::super::semi_regular::{Forest, Spot};
 use super::chart::{Chart, Foot};
-use crate::workers::Workers;
+use super::quads::BaseQuads;
 
 /// Triangles may become as narrow as this: the area of the parallelogram over the sum of the squared sides, 0.25 for
 /// half of a square.
-const NARROW: f64 = 0.06;
+const NARROW: f64 = 0.12;
 
 /// How far vertices go of the way that they would: all of it, or if that is too far, less.
 const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
@@ -22,73 +21,31 @@ pub(super) struct Subdivision<'a> {
     forest: &'a Forest,
     /// Where each corner of the complex is in the quads that have it.
     corners: Vec<Vec<Spot>>,
-    /// How often quads are halved so far.
-    halvings: u32,
     pub(super) feet: Vec<Foot>,
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
 }
 
 impl<'a> Subdivision<'a> {
-    /// With the corners of the complex alone.
-    pub(super) fn new(forest: &'a Forest, feet: Vec<Foot>) -> Self {
+    /// With each vertex where it is in its quad of the base.
+    pub(super) fn new(forest: &'a Forest, base: &BaseQuads) -> Self {
         let side = forest.side();
-        let mut corners = vec![Vec::new(); feet.len()];
+        let mut corners = vec![Vec::new(); base.corners];
         for (quad, names) in (0..).zip(forest.complex().quads()) {
             for (&corner, place) in names.iter().zip([[0, 0], [side, 0], [side, side], [0, side]]) {
                 corners[corner as usize].push(Spot { quad, place });
             }
         }
-        Self { forest, corners, halvings: 0, feet, points: Vec::new(), normals: Vec::new() }
-    }
-
-    /// How many vertices there are after another halving.
-    pub(super) fn next_vertices(&self) -> usize {
-        self.forest.level(2 * self.halvings + 2).end
+        let spots = corners.iter().map(|spots| spots[0]);
+        let spots = spots.chain((base.corners..forest.vertices()).map(|vertex| forest.spot(vertex)));
+        let feet = spots.map(|Spot { quad, place }| base.foot(quad, place, side)).collect();
+        Self { forest, corners, feet, points: Vec::new(), normals: Vec::new() }
     }
 
     /// Looks up where the feet are, after the chart has changed.
     pub(super) fn locate(&mut self, chart: &Chart) {
         self.points = self.feet.iter().map(|foot| chart.point(foot)).collect();
         self.normals = self.feet.iter().map(|foot| chart.normal(foot.face).normalize_or_zero()).collect();
-    }
-
-    /// Halves all squares.
-    pub(super) fn halve(&mut self, chart: &Chart, workers: &Workers) {
-        self.halvings += 1;
-        let sides = self.forest.level(2 * self.halvings);
-        let centres = self.forest.level(2 * self.halvings - 1);
-        let middles = workers.map(sides.collect(), |vertex| self.middle_of_side(chart, vertex));
-        // Centres come before the middles of the sides, but are found from them.
-        let placeholder = self.feet[0];
-        self.feet.resize(centres.end, placeholder);
-        self.feet.extend(middles);
-        self.locate(chart);
-        let found = workers.map(centres.clone().collect(), |vertex| self.middle_of_square(chart, vertex));
-        self.feet[centres.clone()].copy_from_slice(&found);
-        self.locate(chart);
-    }
-
-    fn middle_of_side(&self, chart: &Chart, vertex: usize) -> Foot {
-        let [Some((quad, triangle)), other] = self.forest.split(vertex) else { return self.feet[0] };
-        let ends = [triangle.from, triangle.to].map(|place| self.forest.vertex(Spot { quad, place }));
-        let goal = (self.points[ends[0]] + self.points[ends[1]]) * 0.5;
-        let walks = ends.map(|end| match other {
-            Some(_) => chart.walk(&self.feet[end], goal),
-            None => chart.walk_on_border(&self.feet[end], goal),
-        });
-        nearer(chart, goal, walks)
-    }
-
-    fn middle_of_square(&self, chart: &Chart, vertex: usize) -> Foot {
-        let [Some((quad, first)), Some((_, second))] = self.forest.split(vertex) else { return self.feet[0] };
-        let sides = [first.halves(), second.halves()];
-        let sides = sides.as_flattened().iter().map(|half| self.forest.midpoint(quad, half));
-        let (goal, count) = sides.clone().fold((DVec3::ZERO, 0.0), |(sum, count), side| {
-            (sum + self.points[side], count + 1.0)
-        });
-        let goal = goal / count;
-        nearer(chart, goal, sides.map(|side| chart.walk(&self.feet[side], goal)))
     }
 
     /// Moves each vertex once.
@@ -165,33 +122,31 @@ impl<'a> Subdivision<'a> {
     /// The other vertices of the squares around a vertex, counter-clockwise each; and whether it is on a border.
     fn squares_around(&self, vertex: usize, squares: &mut Vec<[usize; 3]>) -> bool {
         squares.clear();
-        let step = self.forest.side() >> self.halvings;
         if vertex < self.corners.len() {
             let spots = &self.corners[vertex];
-            spots.iter().for_each(|&spot| self.squares_in_quad(spot, step, squares));
+            spots.iter().for_each(|&spot| self.squares_in_quad(spot, squares));
             // In a closed fan each side is one of two squares.
             return squares.iter().any(|&[first, _, _]| squares.iter().all(|&[_, _, last]| last != first));
         }
         let triangles = self.forest.split(vertex);
         let spot = self.forest.spot(vertex);
-        self.squares_in_quad(spot, step, squares);
+        self.squares_in_quad(spot, squares);
         if let [_, Some((quad, triangle))] = triangles
             && quad != spot.quad
         {
             let place = [0, 1].map(|axis| (triangle.from[axis] + triangle.to[axis]) / 2);
-            self.squares_in_quad(Spot { quad, place }, step, squares);
+            self.squares_in_quad(Spot { quad, place }, squares);
         }
         triangles[1].is_none()
     }
 
-    fn squares_in_quad(&self, Spot { quad, place }: Spot, step: u32, squares: &mut Vec<[usize; 3]>) {
-        let (side, step) = (self.forest.side(), step as i32);
+    fn squares_in_quad(&self, Spot { quad, place }: Spot, squares: &mut Vec<[usize; 3]>) {
+        let side = self.forest.side();
         let at = |across: i32, up: i32| {
             let place = [place[0].checked_add_signed(across)?, place[1].checked_add_signed(up)?];
             place.iter().all(|&at| at <= side).then(|| self.forest.vertex(Spot { quad, place }))
         };
         for [first, last] in [[[1, 0], [0, 1]], [[0, 1], [-1, 0]], [[-1, 0], [0, -1]], [[0, -1], [1, 0]]] {
-            let [first, last] = [first, last].map(|way| [way[0] * step, way[1] * step]);
             let beyond = at(first[0] + last[0], first[1] + last[1]);
             if let (Some(first), Some(beyond), Some(last)) = (at(first[0], first[1]), beyond, at(last[0], last[1])) {
                 squares.push([first, beyond, last]);
@@ -203,7 +158,7 @@ impl<'a> Subdivision<'a> {
     pub(super) fn folded(&self) -> usize {
         let mut folded = 0;
         self.forest.visit_triangles(
-            |vertex| vertex < self.points.len(),
+            |_| true,
             |corners| {
                 let [a, b, c] = corners.map(|vertex| self.points[vertex]);
                 let up: DVec3 = corners.iter().map(|&vertex| self.normals[vertex]).sum();
@@ -217,10 +172,4 @@ impl<'a> Subdivision<'a> {
     pub(super) fn positions(&self) -> Vec<[f32; 3]> {
         self.points.iter().map(|point| point.as_vec3().to_array()).collect()
     }
-}
-
-fn nearer(chart: &Chart, goal: DVec3, feet: impl IntoIterator<Item = Foot>) -> Foot {
-    let measured = feet.into_iter().map(|foot| (chart.point(&foot).distance_squared(goal), foot));
-    let nearest = measured.reduce(|best, other| if other.0 < best.0 { other } else { best });
-    nearest.map_or(Foot { face: 0, weights: [1.0, 0.0, 0.0] }, |(_, foot)| foot)
 }

@@ -12,7 +12,7 @@ const STEPS: usize = 1000;
 /// Gains below this share of the distance are rounding.
 const GAIN: f64 = 1e-12;
 
-impl Chart<'_> {
+impl Chart {
     /// The point nearest to `goal` among all that can be reached from `start` through faces that come nearer and
     /// nearer.
     pub(super) fn walk(&self, start: &Foot, goal: DVec3) -> Foot {
