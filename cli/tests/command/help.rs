@@ -2,7 +2,7 @@
 
 use crate::workbench::Workbench;
 
-const SUBCOMMANDS: [&str; 6] = ["simplify", "levels", "play", "compare", "info", "demo"];
+const SUBCOMMANDS: [&str; 7] = ["simplify", "levels", "play", "compare", "remesh", "info", "demo"];
 
 #[test]
 fn help_names_all_subcommands() {

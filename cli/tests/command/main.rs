@@ -6,5 +6,6 @@ mod help;
 mod info;
 mod levels;
 mod play;
+mod remesh;
 mod simplify;
 mod workbench;

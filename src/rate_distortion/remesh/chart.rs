@@ -55,7 +55,8 @@ impl Chart {
             }
         }
         let is_there = vec![true; faces.len()];
-        let chart = Self { vertices: positions.len(), positions, faces, is_there, around, collapses: Vec::new() };
+        let chart =
+            Self { vertices: positions.len(), positions, faces, is_there, around, collapses: Vec::new() };
         match (0..chart.vertices as u32).find(|&vertex| chart.ring(vertex).is_none()) {
             Some(vertex) => Err(vertex),
             None => Ok(chart),
@@ -156,7 +157,7 @@ impl Chart {
                 }
             }
         }
-        let Some(ring) = self.ring(source) else { return };
+        let ring = self.ring(source).expect("a vertex had a ring before it went, as the topology was kept");
         let place_in_ring = |vertex: u32| ring.vertices.iter().position(|&other| other == vertex);
         if let [face] = ring.faces[..] {
             self.grow_ear(face, source, riders, feet);
@@ -189,10 +190,13 @@ impl Chart {
     /// A vertex comes back with one face: what was on the edge that becomes that face's inner one goes to the two
     /// new edges of the border.
     fn grow_ear(&self, face: u32, source: u32, riders: &mut Riders, feet: &mut [Foot]) {
-        let Some(place) = self.faces[face as usize].iter().position(|&corner| corner == source) else { return };
+        let Some(place) = self.faces[face as usize].iter().position(|&corner| corner == source) else {
+            return;
+        };
         let Some(inner) = self.across(face, place) else { return };
         let ends = [1, 2].map(|further| self.faces[face as usize][(place + further) % 3]);
-        let [first, second] = ends.map(|end| self.faces[inner as usize].iter().position(|&corner| corner == end));
+        let [first, second] =
+            ends.map(|end| self.faces[inner as usize].iter().position(|&corner| corner == end));
         let (Some(first), Some(second)) = (first, second) else { return };
         let third = 3 - first - second;
         let mut all = Vec::new();
@@ -229,7 +233,8 @@ impl Chart {
             links.push((corners[(place + 1) % 3], corners[(place + 2) % 3], face));
         }
         let start = links.iter().position(|&(from, ..)| links.iter().all(|&(_, to, _)| to != from));
-        let (mut vertices, mut ordered) = (Vec::with_capacity(links.len() + 1), Vec::with_capacity(links.len()));
+        let (mut vertices, mut ordered) =
+            (Vec::with_capacity(links.len() + 1), Vec::with_capacity(links.len()));
         let mut index = start.unwrap_or(0);
         loop {
             let (from, to, face) = links.swap_remove(index);

@@ -51,7 +51,8 @@ impl BaseQuads {
                 Some(&([from, to], _)) => {
                     let other = sides[&[to, from]];
                     let across = |face: u32| {
-                        let apex = chart.names(face).into_iter().find(|corner| *corner != from && *corner != to);
+                        let apex =
+                            chart.names(face).into_iter().find(|corner| *corner != from && *corner != to);
                         (apex.unwrap_or(from), face)
                     };
                     let polygon = [(from, other), across(other), (to, face), across(face)];
@@ -75,17 +76,16 @@ impl BaseQuads {
         let count = polygon.len();
         // A vertex goes by the side from itself to itself.
         let sides: Vec<[u32; 2]> = (0..count).map(|i| [polygon[i].0, polygon[(i + 1) % count].0]).collect();
-        let mut name = |[a, b]: [u32; 2]| {
-            *names.entry([a.min(b), a.max(b)]).or_insert_with(|| self.corner())
-        };
+        let mut name = |[a, b]: [u32; 2]| *names.entry([a.min(b), a.max(b)]).or_insert_with(|| self.corner());
         let corners: Vec<[u32; 2]> = sides.iter().map(|&side| [name([side[0]; 2]), name(side)]).collect();
         for i in 0..count {
             let before = (i + count - 1) % count;
             self.quads.push([corners[i][0], corners[i][1], centre, corners[before][1]]);
             let (vertex, face) = polygon[i];
             let face_before = polygon[before].1;
-            let half = |face, parts: [&[u32]; 3]| {
-                HalfQuad { face, weights: parts.map(|part| middle_of(chart, face, part)) }
+            let half = |face, parts: [&[u32]; 3]| HalfQuad {
+                face,
+                weights: parts.map(|part| middle_of(chart, face, part)),
             };
             self.halves.push([
                 half(face, [&[vertex], &sides[i], middle]),
@@ -124,7 +124,9 @@ fn pairs(chart: &Chart, sides: &HashMap<[u32; 2], u32>) -> HashMap<u32, Side> {
         for (from, to, apex) in [(a, b, c), (b, c, a), (c, a, b)] {
             let Some(&other) = sides.get(&[to, from]) else { continue };
             let opposite = chart.names(other).into_iter().find(|&corner| corner != from && corner != to);
-            let Some(opposite) = opposite.filter(|&opposite| face < other && opposite != apex) else { continue };
+            let Some(opposite) = opposite.filter(|&opposite| face < other && opposite != apex) else {
+                continue;
+            };
             let normals = chart.normal(face).angle_between(chart.normal(other)).cos();
             let score = normals - sharpest([from, opposite, to, apex].map(|vertex| chart.position(vertex)));
             if score > LEAST_SCORE {
@@ -145,6 +147,7 @@ fn pairs(chart: &Chart, sides: &HashMap<[u32; 2], u32>) -> HashMap<u32, Side> {
 
 /// The largest cosine, in size, of an angle of a quad: 0 for a rectangle.
 fn sharpest(quad: [DVec3; 4]) -> f64 {
-    let cosine = |i: usize| (quad[(i + 1) % 4] - quad[i]).angle_between(quad[(i + 3) % 4] - quad[i]).cos().abs();
+    let cosine =
+        |i: usize| (quad[(i + 1) % 4] - quad[i]).angle_between(quad[(i + 3) % 4] - quad[i]).cos().abs();
     (0..4).map(cosine).fold(0.0, f64::max)
 }

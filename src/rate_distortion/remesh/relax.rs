@@ -81,7 +81,8 @@ impl<'a> Subdivision<'a> {
                 return None;
             }
             for &[before, _, after] in squares {
-                let is_inner = |other: usize| squares.iter().filter(|square| square.contains(&other)).count() > 1;
+                let is_inner =
+                    |other: usize| squares.iter().filter(|square| square.contains(&other)).count() > 1;
                 for end in [before, after].into_iter().filter(|&end| !is_inner(end)) {
                     let length = self.points[end].distance(here);
                     sum += (self.points[end] + here) * (0.5 * length);
@@ -148,7 +149,9 @@ impl<'a> Subdivision<'a> {
         };
         for [first, last] in [[[1, 0], [0, 1]], [[0, 1], [-1, 0]], [[-1, 0], [0, -1]], [[0, -1], [1, 0]]] {
             let beyond = at(first[0] + last[0], first[1] + last[1]);
-            if let (Some(first), Some(beyond), Some(last)) = (at(first[0], first[1]), beyond, at(last[0], last[1])) {
+            if let (Some(first), Some(beyond), Some(last)) =
+                (at(first[0], first[1]), beyond, at(last[0], last[1]))
+            {
                 squares.push([first, beyond, last]);
             }
         }

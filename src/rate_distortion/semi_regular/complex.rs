@@ -143,7 +143,10 @@ fn check_fans(
 }
 
 /// `edges` are sorted.
-fn check_diagonals(quads: &[[u32; 4]], edges: impl Iterator<Item = [u32; 2]>) -> Result<(), SemiRegularError> {
+fn check_diagonals(
+    quads: &[[u32; 4]],
+    edges: impl Iterator<Item = [u32; 2]>,
+) -> Result<(), SemiRegularError> {
     let edges: Vec<[u32; 2]> = edges.collect();
     let mut diagonals: Vec<([u32; 2], usize)> =
         quads.iter().map(|names| [names[0].min(names[2]), names[0].max(names[2])]).zip(0..).collect();

@@ -146,7 +146,8 @@ impl SurfaceDecomposition {
     /// The mesh of as few vertices as there are in the order with a root mean square error of `rms` or less, in
     /// units of the positions; of all if there is none, or `rms` is no number. One walk over the order.
     pub fn at_rms(&self, rms: f64) -> SurfaceApproximation {
-        let vertices = (self.least_vertices()..=self.surface.positions.len()).find(|&count| self.rms(count) <= rms);
+        let vertices =
+            (self.least_vertices()..=self.surface.positions.len()).find(|&count| self.rms(count) <= rms);
         self.at_vertices(vertices.unwrap_or(self.surface.positions.len()))
     }
 

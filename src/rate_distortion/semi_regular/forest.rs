@@ -13,8 +13,8 @@
 //! alike however a quad is turned, so that quads meet as they come; only on level 1 it matters where a quad starts.
 
 use super::super::distortion::{Half, Place};
-use super::complex::{BaseComplex, Side};
 use super::SemiRegularError;
+use super::complex::{BaseComplex, Side};
 use crate::Mesh;
 
 /// A place in a quad.

@@ -36,9 +36,10 @@ pub(super) fn insertion_order(forest: &Forest, point: impl Fn(usize) -> DVec3) -
             }
             let triangles = forest.split(vertex);
             let before = missing.len();
-            let apexes = triangles.iter().flatten().map(|(quad, triangle)| {
-                forest.vertex(super::Spot { quad: *quad, place: triangle.apex })
-            });
+            let apexes = triangles
+                .iter()
+                .flatten()
+                .map(|(quad, triangle)| forest.vertex(super::Spot { quad: *quad, place: triangle.apex }));
             missing.extend(apexes.filter(|&apex| apex >= corners && !is_in[apex - corners]));
             if missing.len() > before {
                 continue;
@@ -46,7 +47,9 @@ pub(super) fn insertion_order(forest: &Forest, point: impl Fn(usize) -> DVec3) -
             missing.pop();
             is_in[vertex - corners] = true;
             order.push((vertex - corners) as u32);
-            for (quad, triangle) in triangles.into_iter().flatten().filter(|(_, at)| at.level < forest.levels()) {
+            for (quad, triangle) in
+                triangles.into_iter().flatten().filter(|(_, at)| at.level < forest.levels())
+            {
                 let children = triangle.halves().map(|half| forest.midpoint(quad, &half));
                 waiting.extend(children.map(|child| (error(child), Reverse(child))));
             }

@@ -32,11 +32,7 @@ pub struct SemiRegularMesh {
 impl SemiRegularMesh {
     /// The surface over `complex`, subdivided `depth` times (at least once), with a finite position for each
     /// vertex, by number. Takes the buffers as they are.
-    pub fn new(
-        complex: BaseComplex,
-        depth: u32,
-        positions: Vec<[f32; 3]>,
-    ) -> Result<Self, SemiRegularError> {
+    pub fn new(complex: BaseComplex, depth: u32, positions: Vec<[f32; 3]>) -> Result<Self, SemiRegularError> {
         Self::over(Forest::new(complex, depth)?, positions)
     }
 
@@ -109,5 +105,6 @@ impl SemiRegularMesh {
 
 /// A mesh from parts of a surface that has been checked.
 fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
-    Mesh::new(positions, triangles).expect("positions are finite, and a forest is no larger than a mesh may be")
+    Mesh::new(positions, triangles)
+        .expect("positions are finite, and a forest is no larger than a mesh may be")
 }
