@@ -29,6 +29,7 @@
 #include <exception>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -441,6 +442,55 @@ struct BoundOptions {
     Progress progress = {};
 };
 
+/// How a field of heights is decomposed. The defaults are the library's.
+struct HierarchyOptions {
+    /// Samples that are void: nothing is known there, and no triangle covers them. A NaN means all that are none.
+    std::optional<float> no_data = {};
+    /// How far columns and rows are apart, in the unit of the heights.
+    float column_spacing = 1;
+    float row_spacing = 1;
+    /// For each sample how much its squared error counts: finite, not negative. Empty: 1 for all.
+    Span<const float> importance = {};
+    /// Sweeps before the gap is looked at, and between two looks.
+    std::uint32_t sweeps = 8;
+    /// Sweeps at most.
+    std::uint32_t max_sweeps = 64;
+    /// How far above the least squared error, in decibels, is good enough.
+    double gap = 0.03;
+    /// Threads to work with; 0: all of the machine.
+    std::uint32_t threads = 0;
+    /// Hears of progress, and may cancel. Empty: nobody does.
+    Progress progress = {};
+};
+
+/// How much of a hierarchy is wanted.
+class Detail {
+public:
+    enum class Kind : decimesh_detail {
+        vertices = DECIMESH_DETAIL_VERTICES,
+        ratio = DECIMESH_DETAIL_RATIO,
+        rms = DECIMESH_DETAIL_RMS,
+        max_error = DECIMESH_DETAIL_MAX_ERROR,
+    };
+
+    /// At most so many vertices, and as many as there can be below.
+    static Detail vertices(std::uint32_t count) noexcept { return {Kind::vertices, static_cast<double>(count)}; }
+    /// So large a part of the samples that are not void, above 0 and at most 1.
+    static Detail ratio(double part) noexcept { return {Kind::ratio, part}; }
+    /// As few vertices as there are with this root mean square of the vertical error.
+    static Detail rms(double error) noexcept { return {Kind::rms, error}; }
+    /// As few vertices as there can be with no sample farther from the surface, vertically.
+    static Detail max_error(double error) noexcept { return {Kind::max_error, error}; }
+
+    Kind kind() const noexcept { return kind_; }
+    double value() const noexcept { return value_; }
+
+private:
+    Detail(Kind kind, double value) noexcept : kind_(kind), value_(value) {}
+    Kind kind_;
+    double value_;
+};
+
 /// What the two-sided Hausdorff distance between two surfaces lies between.
 struct Bound {
     double lower;           ///< the largest distance found
@@ -714,6 +764,46 @@ private:
         void operator()(decimesh_nested *handle) const noexcept { decimesh_nested_destroy(handle); }
     };
     std::unique_ptr<decimesh_nested, Destroy> handle_;
+};
+
+/// What was taken from a `Hierarchy`.
+struct Taken {
+    Mesh mesh;               ///< east, north, up; with texture coordinates
+    double rms;              ///< root of the mean squared vertical error of all samples
+    double max_error;        ///< largest vertical error of a sample
+    double certified_gap;    ///< decibels that the squared error can be above the least of as many vertices
+};
+
+/// Heights over a grid, decomposed: all rates from one run. Move-only.
+class Hierarchy {
+public:
+    /// Decomposes `columns` times as many rows of heights as there are, the northernmost row first. Throws `Error`
+    /// if they do not make whole rows, as for all that is wrong with them.
+    static Hierarchy build(Span<const float> heights, std::size_t columns, const HierarchyOptions &options = {});
+
+    /// The hierarchy in a file that `write` made. `path` is UTF-8.
+    static Hierarchy read(const std::string &path);
+    /// Writes a file as docs/hierarchy-format.md describes it, whole or not at all.
+    void write(const std::string &path) const;
+
+    /// How many samples are not void.
+    std::size_t samples() const noexcept { return decimesh_hierarchy_samples(get()); }
+
+    /// The mesh with as much detail as is wanted, and more where a sample would be farther from it than `max_error`.
+    Taken at(const Detail &wanted, double max_error = std::numeric_limits<double>::infinity()) const;
+
+    /// A free triangulation of at most so many vertices: closer to the heights than what `at` gives with as many, but
+    /// not nested in finer ones. With `least_squares` its heights are fitted to all samples.
+    Taken tin(std::size_t vertices, bool least_squares = false, const Progress &progress = {}) const;
+
+    /// The handle of the C interface.
+    const decimesh_hierarchy *get() const noexcept { return handle_.get(); }
+
+private:
+    struct Destroy {
+        void operator()(decimesh_hierarchy *handle) const noexcept { decimesh_hierarchy_destroy(handle); }
+    };
+    std::unique_ptr<decimesh_hierarchy, Destroy> handle_;
 };
 
 /// A mesh as its coarsest level and the splits that refine it, one after the other. A step is the number of
@@ -1246,6 +1336,69 @@ inline void NestedLevels::certify(const BoundOptions &options) {
 
 inline void NestedLevels::write_glb(const std::string &path) const {
     detail::check(decimesh_nested_write_glb(get(), path.c_str()));
+}
+
+inline Hierarchy Hierarchy::build(Span<const float> heights, std::size_t columns, const HierarchyOptions &options) {
+    const std::size_t rows = columns == 0 ? 0 : heights.size() / columns;
+    if (rows * columns != heights.size()) {
+        throw Error(Status::option, std::to_string(heights.size()) + " heights do not make whole rows of " +
+                                        std::to_string(columns));
+    }
+    if (!options.importance.empty() && options.importance.size() != heights.size()) {
+        throw Error(Status::option, std::to_string(options.importance.size()) + " weights for " +
+                                        std::to_string(heights.size()) + " heights");
+    }
+    auto raw = detail::sized<decimesh_hierarchy_options>();
+    raw.has_no_data = options.no_data ? 1 : 0;
+    raw.no_data = options.no_data.value_or(0.0F);
+    raw.column_spacing = options.column_spacing;
+    raw.row_spacing = options.row_spacing;
+    raw.importance = options.importance.empty() ? nullptr : options.importance.data();
+    raw.sweeps = options.sweeps;
+    raw.max_sweeps = options.max_sweeps;
+    raw.gap = options.gap;
+    raw.threads = options.threads;
+    detail::Watcher watcher(options.progress);
+    watcher.attach(raw);
+    Hierarchy hierarchy;
+    decimesh_hierarchy *handle = nullptr;
+    const decimesh_status status = decimesh_hierarchy_create(heights.data(), columns, rows, &raw, &handle);
+    hierarchy.handle_.reset(handle);
+    watcher.check(status);
+    return hierarchy;
+}
+
+inline Taken Hierarchy::at(const Detail &wanted, double max_error) const {
+    auto report = detail::sized<decimesh_hierarchy_report>();
+    decimesh_mesh *mesh = nullptr;
+    detail::check(decimesh_hierarchy_at(get(), static_cast<decimesh_detail>(wanted.kind()), wanted.value(), max_error,
+                                        &mesh, &report));
+    return {Mesh::adopt(mesh), report.rms, report.max_error, report.certified_gap};
+}
+
+inline Taken Hierarchy::tin(std::size_t vertices, bool least_squares, const Progress &progress) const {
+    auto report = detail::sized<decimesh_hierarchy_report>();
+    decimesh_hierarchy_options raw{};
+    detail::Watcher watcher(progress);
+    watcher.attach(raw);
+    decimesh_mesh *mesh = nullptr;
+    const decimesh_status status = decimesh_hierarchy_tin(get(), vertices, least_squares ? 1 : 0, raw.progress,
+                                                          raw.progress_user, &mesh, &report);
+    Mesh owned = Mesh::adopt(mesh);
+    watcher.check(status);
+    return {std::move(owned), report.rms, report.max_error, report.certified_gap};
+}
+
+inline Hierarchy Hierarchy::read(const std::string &path) {
+    Hierarchy hierarchy;
+    decimesh_hierarchy *handle = nullptr;
+    detail::check(decimesh_hierarchy_read(path.c_str(), &handle));
+    hierarchy.handle_.reset(handle);
+    return hierarchy;
+}
+
+inline void Hierarchy::write(const std::string &path) const {
+    detail::check(decimesh_hierarchy_write(get(), path.c_str()));
 }
 
 inline Progressive Progressive::build(MeshView mesh, const std::vector<Target> &targets, const Options &options) {

@@ -7,6 +7,7 @@ use std::ptr;
 use decimesh::capi::*;
 use decimesh::lod::{NestedLevels, Progressive};
 use decimesh::mesh::{Attributes, Mesh, shapes};
+use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, HeightField};
 use decimesh::{AttributeWeights, Monitor, Options, Placement, Target, build_levels, simplify};
 use proptest::prelude::*;
 
@@ -216,4 +217,62 @@ proptest! {
             decimesh_mesh_destroy(own);
         }
     }
+}
+
+#[test]
+fn hierarchies_give_the_meshes_that_they_give_to_rust() {
+    let (columns, rows) = (70, 45);
+    let heights: Vec<f32> = (0..columns * rows).map(|sample| ((sample * sample) % 251) as f32).collect();
+    let field = HeightField::new(columns, rows, heights.clone(), Some(3.0)).expect("a field");
+    let field = field.with_spacing([2.0, 0.5]).expect("a spacing");
+    let decomposition = Decomposition::new(field, &DecompositionOptions::default(), &mut Monitor::silent());
+    let decomposition = decomposition.expect("a decomposition");
+    // SAFETY: as an init function is called; then the pointers point to what the call's comment says.
+    let hierarchy = unsafe {
+        let mut options = std::mem::zeroed::<decimesh_hierarchy_options>();
+        decimesh_hierarchy_options_init(&mut options, size_of::<decimesh_hierarchy_options>());
+        (options.has_no_data, options.no_data) = (1, 3.0);
+        (options.column_spacing, options.row_spacing) = (2.0, 0.5);
+        let mut hierarchy = ptr::null_mut();
+        succeeded(decimesh_hierarchy_create(heights.as_ptr(), columns, rows, &options, &mut hierarchy));
+        hierarchy
+    };
+    for (kind, value, detail) in [
+        (DECIMESH_DETAIL_VERTICES, 900.0, Detail::Vertices(900)),
+        (DECIMESH_DETAIL_RATIO, 0.5, Detail::Ratio(0.5)),
+        (DECIMESH_DETAIL_RMS, 20.0, Detail::Rms(20.0)),
+        (DECIMESH_DETAIL_MAX_ERROR, 99.0, Detail::MaxError(99.0)),
+    ] {
+        for bound in [f64::INFINITY, 150.0] {
+            let expected = match bound.is_finite() {
+                true => decomposition.at_within(detail, bound),
+                false => decomposition.at(detail),
+            };
+            let expected = expected.expect("a mesh");
+            // SAFETY: as above; the views are used before the mesh ends.
+            unsafe {
+                let mut report = std::mem::zeroed::<decimesh_hierarchy_report>();
+                decimesh_hierarchy_report_init(&mut report, size_of::<decimesh_hierarchy_report>());
+                let mut mesh = ptr::null_mut();
+                succeeded(decimesh_hierarchy_at(hierarchy, kind, value, bound, &mut mesh, &mut report));
+                assert_eq!(report.vertices as usize, expected.samples.len());
+                assert_eq!(report.triangles as usize, expected.mesh.triangles().len());
+                assert_eq!((report.rms, report.certified_gap), (expected.rms, expected.certified_gap));
+                assert_eq!(report.max_error, decomposition.measure(&expected).maximum);
+                let indices = std::slice::from_raw_parts(
+                    decimesh_mesh_indices(mesh),
+                    3 * decimesh_mesh_triangle_count(mesh),
+                );
+                assert_eq!(indices, expected.mesh.triangles().as_flattened());
+                let positions = std::slice::from_raw_parts(
+                    decimesh_mesh_positions(mesh),
+                    3 * decimesh_mesh_vertex_count(mesh),
+                );
+                assert_eq!(positions, expected.mesh.positions().as_flattened());
+                decimesh_mesh_destroy(mesh);
+            }
+        }
+    }
+    // SAFETY: it is not used any more.
+    unsafe { decimesh_hierarchy_destroy(hierarchy) };
 }

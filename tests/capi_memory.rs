@@ -57,6 +57,17 @@ fn calls_take_as_much_memory_as_they_say() {
         }
     });
 
+    let side = 513;
+    let heights: Vec<f32> = (0..side * side).map(|sample| (sample % 97) as f32).collect();
+    let mut hierarchy = ptr::null_mut();
+    // By samples instead of triangles; two million bytes are for no number of them.
+    check("hierarchy", 24.0 + 2.1e6 / heights.len() as f64, heights.len(), || {
+        // SAFETY: as above.
+        unsafe { decimesh_hierarchy_create(heights.as_ptr(), side, side, ptr::null(), &mut hierarchy) }
+    });
+    // SAFETY: as above, and it is not used any more.
+    unsafe { decimesh_hierarchy_destroy(hierarchy) };
+
     let mut mesh = ptr::null_mut();
     // SAFETY: as above.
     succeeded(unsafe { decimesh_mesh_from_buffers(&buffers, &mut mesh) });

@@ -5,6 +5,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use decimesh::io::heights::{self, HeightFormat, HeightOptions, RawLayout, SampleType};
 use decimesh::io::{Format, read_from_slice};
 use decimesh::lod::{Extent, Progressive};
 
@@ -101,6 +102,72 @@ fn lying_headers_get_no_memory() {
             let (used, error) = measured(|| Progressive::read_from_slice(&bytes, extent).map(drop));
             assert!(used < 64 << 10, "{used} bytes for {numbers:?}: {error}");
         }
+    }
+
+    // A TIFF of these tags beside those that say what samples are: each a LONG.
+    let tiff = |tags: &[(u16, u32, u32)]| {
+        let mut all = vec![(258, 1, 32), (262, 1, 1), (277, 1, 1), (339, 1, 3)];
+        all.extend(tags);
+        all.sort_unstable();
+        let mut file = [&b"II\x2a\0\x08\0\0\0"[..], &(all.len() as u16).to_le_bytes()].concat();
+        for (tag, count, value) in all {
+            file.extend(tag.to_le_bytes());
+            file.extend(4_u16.to_le_bytes());
+            file.extend(count.to_le_bytes());
+            file.extend(value.to_le_bytes());
+        }
+        file.extend([0; 40]);
+        (HeightFormat::Tiff, file)
+    };
+    let strip =
+        |height, offset, bytes| [(256, 1, 60_000), (257, 1, height), (273, 1, offset), (279, 1, bytes)];
+    let tile = [
+        (256, 1, 60_000),
+        (257, 1, 60_000),
+        (322, 1, 60_000),
+        (323, 1, 60_000),
+        (324, 1, 8),
+        (325, 1, u32::MAX),
+    ];
+    let compressed = |method| [(259, 1, method)].into_iter().chain(strip(60_000, 8, 40)).collect::<Vec<_>>();
+    let npy = |shape: &str| {
+        let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
+        let length = (header.len() as u16).to_le_bytes();
+        (HeightFormat::Npy, [b"\x93NUMPY\x01\0", &length[..], header.as_bytes(), &[0; 99]].concat())
+    };
+    let png = |columns: u32, rows: u32, kind: [u8; 5]| {
+        let header = [&b"IHDR"[..], &columns.to_be_bytes(), &rows.to_be_bytes(), &kind].concat();
+        let chunk = |body: &[u8]| {
+            [&(body.len() as u32 - 4).to_be_bytes(), body, &crc32fast::hash(body).to_be_bytes()].concat()
+        };
+        let file = [&b"\x89PNG\r\n\x1a\n"[..], &chunk(&header), &chunk(b"IDATxxxx"), &chunk(b"IEND")];
+        (HeightFormat::Png, file.concat())
+    };
+    let raw = RawLayout {
+        columns: 1 << 31,
+        rows: 1 << 31,
+        sample: Some(SampleType::F64),
+        byte_order: heights::ByteOrder::Little,
+    };
+    let options = HeightOptions { raw: Some(raw), ..HeightOptions::default() };
+    for (format, bytes) in [
+        tiff(&strip(60_000, 8, 40)),
+        tiff(&strip(60_000, 8, u32::MAX)),
+        tiff(&tile),
+        tiff(&compressed(5)),
+        tiff(&compressed(8)),
+        tiff(&compressed(32773)),
+        tiff(&[(256, 1, 60_000), (257, 1, 60_000), (273, 60_000, 8), (279, 60_000, 8)]),
+        tiff(&[(256, 1, 60_000), (257, 1, 60_000), (273, u32::MAX, 8), (279, u32::MAX, 8)]),
+        npy("(4000000000, 4000000000)"),
+        npy("(100000, 100000)"),
+        png(4_000_000, 4_000_000, [16, 0, 0, 0, 0]),
+        png(1 << 30, 1, [16, 0, 0, 0, 0]),
+        png(4_000_000, 4_000_000, [8, 2, 0, 0, 1]),
+        (HeightFormat::Raw, vec![0; 99]),
+    ] {
+        let (used, error) = measured(|| heights::read_from_slice(&bytes, format, &options).map(drop));
+        assert!(used < 256 << 10, "{used} bytes for {} bytes of {format:?}: {error}", bytes.len());
     }
 }
 

@@ -10,6 +10,7 @@ use decimesh::mesh::Weld;
 use decimesh::{AttributeWeights, Options, Placement, Selection, Target, Topology};
 
 use crate::failure::Failure;
+use crate::terrain::{DecomposeArguments, ExtractArguments, TerrainArguments};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -21,7 +22,8 @@ Exit codes:
   5  an option's value, or a mesh, does not suit what was asked for
   6  --verify found the result to be wrong; nothing was written
 
-Files are written whole or not at all. PLY, OBJ, STL, OFF and glTF are known by their extensions.";
+Files are written whole or not at all. PLY, OBJ, STL, OFF and glTF are known by their extensions,
+and so are PNG, TIFF, NumPy and raw samples where heights are read.";
 
 /// Simplify, compare and look at triangle meshes.
 #[derive(Debug, Parser)]
@@ -39,6 +41,15 @@ pub(crate) enum Command {
     /// Make a chain of levels of detail, a file each.
     #[command(after_help = EXIT_CODES)]
     Levels(LevelsArguments),
+    /// Make a mesh of heights over a grid.
+    #[command(after_help = EXIT_CODES)]
+    Terrain(TerrainArguments),
+    /// Store heights over a grid such that any mesh can be taken from them.
+    #[command(after_help = EXIT_CODES)]
+    Decompose(DecomposeArguments),
+    /// Take a mesh out of what `decompose` stored.
+    #[command(after_help = EXIT_CODES)]
+    Extract(ExtractArguments),
     /// Measure the distance between two surfaces.
     #[command(after_help = EXIT_CODES)]
     Compare(CompareArguments),

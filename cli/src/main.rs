@@ -15,6 +15,7 @@ mod remesh;
 mod render;
 mod report;
 mod simplify;
+mod terrain;
 
 use std::process::ExitCode;
 
@@ -26,6 +27,9 @@ fn main() -> ExitCode {
     let result = match &Arguments::parse().command {
         Command::Simplify(arguments) => simplify::run(arguments),
         Command::Levels(arguments) => levels::run(arguments),
+        Command::Terrain(arguments) => terrain::run(arguments),
+        Command::Decompose(arguments) => terrain::decompose(arguments),
+        Command::Extract(arguments) => terrain::extract(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Play(arguments) => play::run(arguments),
         Command::Remesh(arguments) => remesh::run(arguments),

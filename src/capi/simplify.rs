@@ -416,11 +416,11 @@ impl decimesh_simplify_options {
 /// All bits of `vertex_flags` that mean something.
 const VERTEX_FLAGS: u8 = DECIMESH_VERTEX_LOCK | DECIMESH_VERTEX_PROTECT | DECIMESH_VERTEX_PRIORITIZE;
 
-fn foreign(option: &str, value: i32) -> Failure {
+pub(super) fn foreign(option: &str, value: i32) -> Failure {
     Failure::new(DECIMESH_ERROR_ENUM, format!("{option} is {value}, which is none of its values"))
 }
 
-fn switch(option: &str, value: i32) -> Result<bool, Failure> {
+pub(super) fn switch(option: &str, value: i32) -> Result<bool, Failure> {
     match value {
         0 => Ok(false),
         1 => Ok(true),

@@ -168,7 +168,7 @@ impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         let message = error.to_string();
         let status = match error {
-            FileError::UnknownFormat { .. } => DECIMESH_ERROR_FORMAT,
+            FileError::UnknownFormat { .. } | FileError::UnknownHeightFormat { .. } => DECIMESH_ERROR_FORMAT,
             FileError::Read { source, .. } => Self::from(source).status,
             FileError::Write { source, .. } => match source {
                 WriteError::Io(_) => DECIMESH_ERROR_IO,

@@ -36,10 +36,7 @@ impl AttributeRows {
         let attributes = mesh.attributes();
         let vertices = mesh.positions().len();
         let AttributeWeights { normals, uvs, colors } = weights;
-        let unit = mesh.bounds().map_or(0.0, |(low, high)| {
-            scale * (Vec3::from(high) - Vec3::from(low)).max_element().min(f32::MAX)
-        });
-        let weighted = |weight: f32| (weight > 0.0).then_some(weight * unit);
+        let weighted = |weight: f32| (weight > 0.0).then_some(weight);
         let normals = attributes.normals.as_ref().zip(weighted(normals));
         let uvs = attributes.uvs.as_ref().zip(weighted(uvs));
         let colors = attributes.colors.as_ref().zip(weighted(colors / 255.0));
@@ -49,13 +46,16 @@ impl AttributeRows {
         if values == 0 {
             return None;
         }
+        let unit = mesh.bounds().map_or(0.0, |(low, high)| {
+            scale * (Vec3::from(high) - Vec3::from(low)).max_element().min(f32::MAX)
+        });
         let width = values.div_ceil(4);
         let mut blocks = Vec::with_capacity(width * vertices);
         for vertex in 0..vertices {
             let mut row = [0.0; 4 * WIDTH];
             let mut places = row.iter_mut();
             let mut fill = |values: &[f32], weight: f32| {
-                values.iter().zip(&mut places).for_each(|(value, place)| *place = value * weight);
+                values.iter().zip(&mut places).for_each(|(value, place)| *place = value * (weight * unit));
             };
             if let Some((normals, weight)) = normals {
                 fill(&normals[vertex], weight);
@@ -74,6 +74,12 @@ impl AttributeRows {
     #[inline(always)]
     fn row(&self, vertex: u32) -> &[Vec4] {
         &self.blocks[vertex as usize * self.width..][..self.width]
+    }
+
+    /// All rows, whose width is known to be this.
+    #[inline(always)]
+    fn of_width<const W: usize>(&self) -> &[[Vec4; W]] {
+        self.blocks.as_chunks().0
     }
 
     /// The squared distance between the attributes of two wedges.
@@ -112,8 +118,23 @@ impl AttributeQuadric {
         wedges: &RingWedges,
         ring: &Ring,
     ) {
+        match rows.width {
+            1 => self.gather_rows::<1>(rows, names, wedges, ring),
+            2 => self.gather_rows::<2>(rows, names, wedges, ring),
+            _ => self.gather_rows::<WIDTH>(rows, names, wedges, ring),
+        }
+    }
+
+    fn gather_rows<const W: usize>(
+        &mut self,
+        rows: &AttributeRows,
+        names: &WedgeNames,
+        wedges: &RingWedges,
+        ring: &Ring,
+    ) {
         self.sectors.clear();
-        let row = |wedge: u32| rows.row(names.vertex(wedge));
+        let rows = rows.of_width::<W>();
+        let row = |wedge: u32| &rows[names.vertex(wedge) as usize];
         for (index, spoke) in ring.spokes().iter().enumerate() {
             let wedge = wedges.own[index];
             let known = self.sectors.iter().position(|sector| sector.wedge == wedge);
@@ -164,10 +185,25 @@ impl AttributeQuadric {
         moves: &Moves,
         edge: Vec3A,
     ) -> (f32, f32) {
+        match rows.width {
+            1 => self.cost_of_rows::<1>(rows, names, moves, edge),
+            2 => self.cost_of_rows::<2>(rows, names, moves, edge),
+            _ => self.cost_of_rows::<WIDTH>(rows, names, moves, edge),
+        }
+    }
+
+    fn cost_of_rows<const W: usize>(
+        &self,
+        rows: &AttributeRows,
+        names: &WedgeNames,
+        moves: &Moves,
+        edge: Vec3A,
+    ) -> (f32, f32) {
+        let rows = rows.of_width::<W>();
         let (mut cost, mut area) = (0.0, 0.0);
         for sector in &self.sectors {
-            let own = rows.row(names.vertex(sector.wedge));
-            let there = rows.row(names.vertex(moves.target(sector.wedge)));
+            let own = &rows[names.vertex(sector.wedge) as usize];
+            let there = &rows[names.vertex(moves.target(sector.wedge)) as usize];
             let [x, y, z] = sector.slopes;
             let mut differences = Vec4::ZERO;
             for ((&own, &there), gradient) in own.iter().zip(there).zip(&sector.gradients) {

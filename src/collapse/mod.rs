@@ -42,6 +42,8 @@ impl Counts {
 pub(crate) struct Rules {
     /// Collapses that change the topology are allowed.
     pub(crate) any_topology: bool,
+    /// What is kept may be given up if the goal cannot be reached otherwise.
+    pub(crate) may_relax: bool,
     /// The largest estimated error, in the units of the surface.
     pub(crate) error_limit: f32,
     /// No vertex moves: the source goes to where the target is.

@@ -199,6 +199,34 @@ impl Ring {
         (count_equal(&self.next[..padded], vertex), count_equal(&self.previous[..padded], vertex))
     }
 
+    /// The first face in which `vertex` comes before the ring's.
+    #[inline(always)]
+    pub(crate) fn face_before(&self, vertex: u32) -> Option<usize> {
+        let padded = self.count.next_multiple_of(LANES);
+        let (groups, _) = self.previous[..padded].as_chunks::<LANES>();
+        let masks = groups.iter().map(|group| mask_equal(group, vertex));
+        let found = masks.enumerate().find(|(_, mask)| *mask != 0);
+        found.map(|(index, mask)| LANES * index + mask.trailing_zeros() as usize)
+    }
+
+    /// Calls `see` with each face that has `vertex` as another corner, by its place in the ring, in order, and
+    /// with whether `vertex` comes after the ring's there.
+    #[inline(always)]
+    pub(crate) fn visit_faces_with(&self, vertex: u32, mut see: impl FnMut(usize, bool)) {
+        let padded = self.count.next_multiple_of(LANES);
+        let (next, _) = self.next[..padded].as_chunks::<LANES>();
+        let (previous, _) = self.previous[..padded].as_chunks::<LANES>();
+        for (group, (next, previous)) in next.iter().zip(previous).enumerate() {
+            let after = mask_equal(next, vertex);
+            let mut either = after | mask_equal(previous, vertex);
+            while either != 0 {
+                let lane = either.trailing_zeros();
+                see(LANES * group + lane as usize, after >> lane & 1 == 1);
+                either &= either - 1;
+            }
+        }
+    }
+
     /// How many vertices come after the vertex of this ring and of `other`.
     #[inline(always)]
     pub(crate) fn common_next(&self, other: &Self) -> u32 {
@@ -303,4 +331,11 @@ pub(super) fn key(cost: f32, name: u32) -> u64 {
 fn count_equal(names: &[u32], name: u32) -> u32 {
     let (groups, _) = names.as_chunks::<LANES>();
     groups.iter().map(|group| group.iter().map(|&other| u32::from(other == name)).sum::<u32>()).sum()
+}
+
+/// A bit for each of `names`, which is set where it is `name`.
+#[inline(always)]
+fn mask_equal(names: &[u32; LANES], name: u32) -> u32 {
+    let bits = std::array::from_fn::<u32, LANES, _>(|lane| 1 << lane);
+    names.iter().zip(bits).map(|(&other, bit)| if other == name { bit } else { 0 }).sum()
 }

@@ -258,34 +258,33 @@ impl<'a> Tile<'a> {
             target_point: self.columns.points[into],
             target_locked: self.columns.flags[into] & flag::LOCKED != 0,
         };
-        let collapse = edge
-            .collapse(rules, &mut scratch.neighbours)
-            .filter(|_| !rules.half_edge || self.find_moves(target, scratch));
-        let Some(collapse) = collapse else {
+        let collapse = edge.collapse(rules, &mut scratch.neighbours);
+        let legal = collapse.and_then(|collapse| Some((collapse, self.settle(target, rules, scratch)?)));
+        let Some((collapse, error)) = legal else {
             self.columns.flags[from] |= flag::BLOCKED;
             return None;
         };
-        if !rules.half_edge {
-            return Some(Counts { faces: self.execute(source, target, &collapse), vertices: 1 });
-        }
-        let edge = Vec3A::from_vec4(self.columns.points[into]) - Vec3A::from_vec4(self.columns.points[from]);
-        let error = self.shared.terms.attribute_error(&scratch.source, edge, &mut scratch.half_edge);
         let faces = self.execute(source, target, &collapse);
-        Some(Counts { faces, vertices: self.execute_half_edge(source, target, error, scratch) })
+        let vertices =
+            if rules.half_edge { self.execute_half_edge(source, target, error, scratch) } else { 1 };
+        Some(Counts { faces, vertices })
     }
 
-    /// Finds where the wedges of `scratch.source` go; `false` if they may not go to `target`.
+    /// Finds where the wedges of `scratch.source` go in a collapse into `target`, and what the attributes differ
+    /// by then; `None` if they may not go.
     #[inline(always)]
-    fn find_moves(&self, target: u32, scratch: &mut Scratch) -> bool {
+    fn settle(&self, target: u32, rules: &Rules, scratch: &mut Scratch) -> Option<f32> {
         let terms = &self.shared.terms;
-        if terms.are_none() {
-            return true;
+        if !rules.half_edge || terms.are_none() {
+            return Some(0.0);
         }
         let Scratch { source, half_edge, .. } = scratch;
-        self.gather_corners(source.vertex, &mut half_edge.wedges.corners);
-        half_edge.wedges.look_up(&terms.wedges);
-        let flags = self.flags(source.vertex);
-        terms.find_moves(source, flags, &half_edge.wedges, target, &mut half_edge.moves)
+        if !half_edge.has_chosen([source.vertex, target]) {
+            self.gather_corners(source.vertex, &mut half_edge.wedges.corners);
+        }
+        let place = |vertex: u32| Vec3A::from_vec4(self.columns.points[(vertex - self.first) as usize]);
+        let edge = place(target) - place(source.vertex);
+        terms.settle(source, self.flags(source.vertex), target, edge, half_edge)
     }
 
     fn execute(&mut self, source: u32, target: u32, collapse: &Collapse) -> usize {

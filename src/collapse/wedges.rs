@@ -102,10 +102,21 @@ impl Wedges<'_> {
     /// The wedge of a corner, which is `face << 2 | corner`.
     #[inline(always)]
     pub(crate) fn at(&self, corner: u32) -> u32 {
-        let (face, corner) = ((corner >> 2) as usize, (corner & 3) as usize);
+        let [own, ..] = self.around(corner);
+        own
+    }
+
+    /// The wedges of a corner, and of those after and before it.
+    #[inline(always)]
+    fn around(&self, corner: u32) -> [u32; 3] {
+        let face = (corner >> 2) as usize;
+        let corners = [corner, next_corner(corner), previous_corner(corner)];
         match self.corners.get(face) {
-            Some(wedges) => wedges[corner].load(Relaxed),
-            None => self.sources[self.faces[face][corner].load(Relaxed) as usize],
+            Some(wedges) => corners.map(|corner| wedges[(corner & 3) as usize].load(Relaxed)),
+            None => {
+                let vertices = &self.faces[face];
+                corners.map(|corner| self.sources[vertices[(corner & 3) as usize].load(Relaxed) as usize])
+            }
         }
     }
 
@@ -124,26 +135,32 @@ pub(crate) struct RingWedges {
     pub(crate) own: Vec<u32>,
     pub(crate) next: Vec<u32>,
     pub(crate) previous: Vec<u32>,
+    /// How many different ones are the vertex's own.
+    kinds: usize,
 }
 
 impl RingWedges {
     /// Looks up the wedges of the `corners`.
     pub(crate) fn look_up(&mut self, wedges: &Wedges) {
-        let Self { corners, own, next, previous } = self;
-        own.clear();
-        own.extend(corners.iter().map(|&corner| wedges.at(corner)));
-        next.clear();
-        next.extend(corners.iter().map(|&corner| wedges.at(next_corner(corner))));
-        previous.clear();
-        previous.extend(corners.iter().map(|&corner| wedges.at(previous_corner(corner))));
+        let Self { corners, own, next, previous, kinds } = self;
+        for names in [&mut *own, &mut *next, &mut *previous] {
+            names.resize(corners.len(), 0);
+        }
+        let names = own.iter_mut().zip(&mut *next).zip(&mut *previous);
+        for (&corner, ((own, next), previous)) in corners.iter().zip(names) {
+            [*own, *next, *previous] = wedges.around(corner);
+        }
+        let is_one = own.iter().all(|&wedge| wedge == own[0]);
+        let is_first = |index: usize| !own[..index].contains(&own[index]);
+        *kinds =
+            if is_one { own.len().min(1) } else { (0..own.len()).filter(|&index| is_first(index)).count() };
     }
 
     /// Calls `see` with each edge of the ring at which wedges meet: on one of its sides the vertex, or the
     /// neighbour, has another wedge than on the other.
     pub(crate) fn visit_seams(&self, ring: &Ring, mut see: impl FnMut(Vec3A)) {
         for (index, &neighbour) in ring.next().iter().enumerate() {
-            let there = ring.previous().iter().position(|&previous| previous == neighbour);
-            let is_seam = there.is_some_and(|other| {
+            let is_seam = ring.face_before(neighbour).is_some_and(|other| {
                 (self.own[other], self.previous[other]) != (self.own[index], self.next[index])
             });
             if is_seam {
@@ -178,22 +195,16 @@ impl Moves {
     ) -> bool {
         self.pairs.clear();
         let mut torn = false;
-        for (index, (next, previous)) in ring.names().enumerate() {
-            let into = if next == target {
-                wedges.next[index]
-            } else if previous == target {
-                wedges.previous[index]
-            } else {
-                continue;
-            };
+        ring.visit_faces_with(target, |index, is_after| {
+            let into = if is_after { wedges.next[index] } else { wedges.previous[index] };
             let pair = HalfEdge { source: wedges.own[index], target: into };
             torn |= self.pairs.iter().any(|other| other.source == pair.source && other.target != pair.target);
             if !self.pairs.contains(&pair) {
                 self.pairs.push(pair);
             }
-        }
-        let has_way = |wedge: &u32| self.pairs.iter().any(|pair| pair.source == *wedge);
-        let found = !torn && wedges.own.iter().all(has_way)
+        });
+        // Where none has two places to go to, each pair is another wedge's.
+        let found = !torn && self.pairs.len() == wedges.kinds
             || distance.is_some_and(|distance| self.bridge(wedges, names, distance));
         found && self.agree(names)
     }

@@ -105,7 +105,8 @@ pub struct Options {
     /// Where no vertex moves, vertices may go across seams too, at the cost of the attributes by their
     /// weights: what was on one side then takes the nearest attributes of the other. The surface stays
     /// closed, and groups keep their borders. Without this a mesh of many small charts, or a faceted one,
-    /// gets stuck at their corners; [`Topology::RelaxIfStuck`] then lets them go across at last.
+    /// gets stuck at their corners; [`Topology::RelaxIfStuck`] then lets them go across, before it gives up
+    /// holes, handles and components.
     pub cross_seams: bool,
     /// Indices of vertices that go along seams only, whatever `cross_seams` says.
     pub protected: Vec<u32>,

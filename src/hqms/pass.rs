@@ -86,7 +86,11 @@ impl Threshold {
             (false, false) => SHARE_NEAR,
         };
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
-        let samples = sample(surface, wanted < SMALL, rules, workers);
+        let mut samples = sample(surface, wanted < SMALL, rules, workers);
+        if rules.may_relax && seams_hold(surface, &samples, goal, counts) {
+            surface.cross_seams();
+            samples = sample(surface, wanted < SMALL, rules, workers);
+        }
         let usable =
             samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
         let quantile = f32::min(share * usable, AIM * wanted / self.yielded.max(0.5));
@@ -155,6 +159,19 @@ fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -
             .collect::<Vec<_>>()
     });
     of_blocks.concat()
+}
+
+/// Whether more vertices have nowhere to go, because several seams meet at them, than the goal leaves: what is
+/// so at one pass is so at the next.
+fn seams_hold(surface: &Surface, samples: &[(u32, u32)], goal: Goal, counts: Counts) -> bool {
+    let flags = |vertex: u32| surface.flags[vertex as usize];
+    let alive = samples.iter().filter(|(vertex, _)| flags(*vertex) & flag::DEAD == 0).count();
+    let is_held = |&&(vertex, cost): &&(u32, u32)| {
+        cost == UNUSABLE
+            && flags(vertex) & (flag::SEAM | flag::LOCKED | flag::PROTECTED | flag::BLOCKED) == flag::SEAM
+    };
+    let held = samples.iter().filter(is_held).count();
+    surface.keeps_seams() && goal.ratio(counts).is_some_and(|ratio| held as f32 * ratio > alive as f32)
 }
 
 /// The bits of the cost that `quantile` of the samples do not exceed, and one more.

@@ -8,7 +8,7 @@ use super::{
     AttributeWeights, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
     replacement,
 };
-use crate::collapse::surface::{Remains, Setting, Surface, Track, flag};
+use crate::collapse::surface::{Remains, Setting, Snapshot, Surface, Track, flag};
 use crate::collapse::{Counts, Rules};
 use crate::mesh::Mesh;
 use crate::mesh::places::places;
@@ -36,6 +36,10 @@ const STUCK_VERTICES: usize = 50_000;
 /// Below this share of its vertices to remove, a surface that is too large for the finish ends
 /// with a ranked pass.
 const RANKED_SHARE: f32 = 0.1;
+/// Where vertices stay, a surface that is small enough for the finish goes there after a pass that removes a
+/// smaller share of the vertices, and less than half of what is left to remove: passes to come would do ever
+/// less, at the same price.
+const SLOW: f32 = 0.15;
 /// A pass that removes a smaller share of the vertices makes no progress worth another.
 const STALLED: f32 = 0.002;
 
@@ -90,7 +94,7 @@ impl<'a> Run<'a> {
         surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: surface.vertex_count() };
         let locked = surface.flags.iter().filter(|flags| *flags & flag::LOCKED != 0).count();
-        let extent = extent(&surface);
+        let extent = if half_edge { [Vec3A::NEG_INFINITY, Vec3A::INFINITY] } else { extent(&surface) };
         Ok(Self {
             options,
             input: mesh,
@@ -118,8 +122,10 @@ impl<'a> Run<'a> {
             Target::MaxError(limit) => limit * self.surface.scale(),
             _ => f32::INFINITY,
         };
+        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
         let rules = Rules {
             any_topology: false,
+            may_relax,
             error_limit,
             half_edge: moves_no_vertex(self.options),
             extent: self.extent,
@@ -130,42 +136,21 @@ impl<'a> Run<'a> {
             monitor.report(share.start + (share.end - share.start) * progress(goal, start, counts))
         };
         report(self.counts)?;
-        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
         let mut checkpoint = None;
-        let mut stalled = false;
-        while goal.excess(self.counts) > 0 && !stalled && !self.is_near(goal) {
-            if may_relax && checkpoint.is_none() && self.may_get_stuck(goal) {
-                self.surface.shrink();
-                checkpoint = Some((self.surface.snapshot(), self.counts));
+        self.approach(goal, &rules, &mut checkpoint, &mut report)?;
+        if let Some(checkpoint) = checkpoint.filter(|_| goal.excess(self.counts) > 0) {
+            if self.surface.keeps_seams() {
+                let rules = Rules { may_relax: false, ..rules };
+                self.retry(goal, checkpoint.clone(), |run| {
+                    run.surface.cross_seams();
+                    run.surface.build_rings(&run.workers);
+                    run.approach(goal, &rules, &mut None, &mut report)
+                })?;
             }
-            let removed = self.pass(goal, &rules, &mut report)?;
-            stalled = (removed.vertices as f32) < STALLED * self.surface.points.len() as f32;
-            self.surface.compact(&self.workers);
-            self.counts.remove(removed);
-            self.recount(goal);
-            self.passes += 1;
-            report(self.counts)?;
-            self.surface.build_rings(&self.workers);
-        }
-        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= STUCK_VERTICES) {
-            if may_relax && checkpoint.is_none() {
-                self.surface.shrink();
-                checkpoint = Some((self.surface.snapshot(), self.counts));
-            }
-            self.finish(goal, &rules, &mut report)?;
-            if goal.excess(self.counts) > 0
-                && let Some((snapshot, counts)) = checkpoint
-            {
-                let kept = (self.surface.snapshot(), self.counts);
-                self.surface.restore(snapshot);
-                self.counts = counts;
-                self.finish(goal, &Rules { any_topology: true, ..rules }, &mut report)?;
-                if goal.excess(self.counts) < goal.excess(kept.1) {
-                    self.topology_changed = true;
-                } else {
-                    self.surface.restore(kept.0);
-                    self.counts = kept.1;
-                }
+            if goal.excess(self.counts) > 0 {
+                let rules = Rules { any_topology: true, ..rules };
+                self.topology_changed |=
+                    self.retry(goal, checkpoint, |run| run.finish(goal, &rules, &mut report))?;
             }
             self.surface.build_rings(&self.workers);
         }
@@ -175,6 +160,69 @@ impl<'a> Run<'a> {
             _ if goal.excess(self.counts) == 0 => StoppedBy::Target,
             _ => StoppedBy::Stuck,
         })
+    }
+
+    /// Passes until the goal is near, and the finish. Where the run may have to come back, `checkpoint` is then
+    /// what to.
+    fn approach(
+        &mut self,
+        goal: Goal,
+        rules: &Rules,
+        checkpoint: &mut Option<(Snapshot, Counts)>,
+        report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
+        let mut stalled = false;
+        while goal.excess(self.counts) > 0 && !stalled && !self.is_near(goal) {
+            if rules.may_relax && checkpoint.is_none() && self.may_get_stuck(goal) {
+                *checkpoint = Some(self.checkpoint());
+            }
+            let (vertices, wanted) = (self.surface.points.len(), goal.collapses(self.counts));
+            let removed = self.pass(goal, rules, report)?;
+            let share = removed.vertices as f32 / vertices as f32;
+            let slow = rules.half_edge && share < SLOW && 2 * removed.vertices < wanted;
+            let finishes = slow && vertices <= FINISH_VERTICES && goal != Goal::Fewest;
+            stalled = share < STALLED || finishes;
+            self.surface.compact(&self.workers);
+            self.counts.remove(removed);
+            self.recount(goal);
+            self.passes += 1;
+            report(self.counts)?;
+            self.surface.build_rings(&self.workers);
+        }
+        if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= STUCK_VERTICES) {
+            if rules.may_relax && checkpoint.is_none() {
+                *checkpoint = Some(self.checkpoint());
+            }
+            self.finish(goal, rules, report)?;
+            self.surface.build_rings(&self.workers);
+        }
+        Ok(())
+    }
+
+    /// What a run that gets stuck comes back to.
+    fn checkpoint(&mut self) -> (Snapshot, Counts) {
+        self.surface.shrink();
+        (self.surface.snapshot(), self.counts)
+    }
+
+    /// Makes an `attempt` from an earlier surface, and comes back if that leads no nearer to the goal; whether it
+    /// does. Rings are lost.
+    fn retry(
+        &mut self,
+        goal: Goal,
+        (snapshot, counts): (Snapshot, Counts),
+        attempt: impl FnOnce(&mut Self) -> Result<(), Cancelled>,
+    ) -> Result<bool, Cancelled> {
+        let kept = (self.surface.snapshot(), self.counts);
+        self.surface.restore(snapshot);
+        self.counts = counts;
+        attempt(self)?;
+        let better = goal.excess(self.counts) < goal.excess(kept.1);
+        if !better {
+            self.surface.restore(kept.0);
+            self.counts = kept.1;
+        }
+        Ok(better)
     }
 
     /// Whether what is left is for the finish. The paper's selection goes on by itself until so few
@@ -189,7 +237,9 @@ impl<'a> Run<'a> {
         };
         let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= finish_ratio);
         let finishes_early = self.options.selection == Selection::SampledThreshold;
-        vertices <= FEW_VERTICES || finishes_early && near && vertices <= FINISH_VERTICES
+        // The time of the finish is that of the surface's vertices, not of the result's.
+        let finished = if moves_no_vertex(self.options) { self.surface.points.len() } else { vertices };
+        finished <= FEW_VERTICES || finishes_early && near && vertices <= FINISH_VERTICES
     }
 
     fn pass(

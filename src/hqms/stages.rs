@@ -16,6 +16,7 @@ use glam::Vec3A;
 
 const RULES: Rules = Rules {
     any_topology: false,
+    may_relax: false,
     error_limit: f32::INFINITY,
     half_edge: false,
     extent: [Vec3A::NEG_INFINITY, Vec3A::INFINITY],

@@ -1,4 +1,4 @@
-//! Mesh files: PLY, OBJ, STL, OFF and glTF, read and written.
+//! Mesh files: PLY, OBJ, STL, OFF and glTF, read and written. Files of [`heights`] are read too.
 //!
 //! | | positions and triangles | normals | colours | texture coordinates | encodings |
 //! |---|---|---|---|---|---|
@@ -31,6 +31,7 @@
 //! a mesh without triangles becomes a document without a mesh.
 
 mod gltf;
+pub mod heights;
 mod obj;
 mod off;
 mod ply;
@@ -112,7 +113,8 @@ pub enum Place {
     Line(u64),
     /// A byte of a binary file, counted from 0.
     Byte(u64),
-    /// An object of a glTF document, such as `meshes[0].primitives[1]`.
+    /// An object of a glTF document, such as `meshes[0].primitives[1]`, or a part of a file of heights, such
+    /// as `row 12`.
     Object(String),
 }
 
@@ -126,7 +128,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why bytes do not make a mesh.
+/// Why bytes do not make a mesh, or heights.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -187,6 +189,12 @@ pub enum FileError {
     /// The extension names no format.
     #[error("{}: the extension is none of ply, obj, stl, off, gltf, glb", path.display())]
     UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The extension names no format of heights.
+    #[error("{}: the extension is none of png, tif, tiff, npy, raw, bin, f32, i16, u16", path.display())]
+    UnknownHeightFormat {
         /// The file.
         path: PathBuf,
     },

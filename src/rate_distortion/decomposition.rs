@@ -3,12 +3,15 @@
 use std::sync::OnceLock;
 
 use super::Error;
-use super::distortion::distortions;
+use super::distortion::{Place, distortions};
 use super::extract::{Extract, extract};
 use super::flow::{Certificate, Effort, NEVER, decibels, rank, solve};
 use super::height_field::HeightField;
 use super::lattice::{Collected, Lattice};
+use super::layout::Site;
 use super::max_error::{self, Left};
+use super::rate;
+use super::vertical::{VerticalError, measure};
 use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use crate::workers::Workers;
@@ -16,7 +19,7 @@ use crate::workers::Workers;
 /// How a field is decomposed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DecompositionOptions {
-    /// Sweeps of the flow before the [gap](Decomposition::certified_gap) is looked at, and between two looks, 2 at
+    /// Sweeps of the flow before the [gap](Approximation::certified_gap) is looked at, and between two looks, 2 at
     /// least. Eight are enough for most terrain.
     pub sweeps: u32,
     /// The gap, in decibels, at which it is good enough: where a fifth of the vertices is left.
@@ -40,6 +43,9 @@ pub enum Detail {
     Vertices(usize),
     /// That part of the samples that are not void, above 0 and at most 1.
     Ratio(f64),
+    /// Vertices that cost no more than this together, by the costs of [`Decomposition::with_costs`]; each costs 1
+    /// without.
+    Cost(f64),
     /// As few vertices as there are in the order of the decomposition with this root mean square of the vertical
     /// error over all samples, in the unit of the heights (weighted, if samples have an importance).
     Rms(f64),
@@ -58,7 +64,7 @@ pub enum Detail {
 #[derive(Debug)]
 pub struct Decomposition {
     lattice: Lattice,
-    /// By how much the squared error grows with each vertex, by number.
+    /// By how much the squared error grows with each vertex, by number, over [`Lattice::squared_unit`].
     deltas: Vec<f32>,
     /// The slopes at which vertices go, by number: none less than that of its children.
     slopes: Vec<f32>,
@@ -66,7 +72,9 @@ pub struct Decomposition {
     order: Vec<u32>,
     removable: usize,
     certificate: Certificate,
-    /// Of all samples together.
+    /// What each vertex costs, by number, where that is not 1 for all.
+    costs: Option<Vec<f32>>,
+    /// Of all samples together; over the same unit as heights' squares.
     weight: f64,
     /// The squared error after every [`NOTED`] vertices, once somebody asks.
     noted: OnceLock<Vec<f64>>,
@@ -87,6 +95,9 @@ pub struct Approximation {
     pub squared_error: f64,
     /// The root of its mean.
     pub rms: f64,
+    /// How far, in decibels, the squared error can be above that of the best conforming mesh of as many vertices:
+    /// proven for this field, by a bound on all such meshes. Infinite if nothing is known.
+    pub certified_gap: f64,
 }
 
 impl Decomposition {
@@ -99,17 +110,56 @@ impl Decomposition {
         let workers = Workers::new(options.threads)?;
         monitor.report(0.0)?;
         let lattice = Lattice::new(field);
-        let layout = lattice.layout();
-        let collected = Collected::new(&lattice);
-        distortions(&collected, lattice.roots(), layout.levels(), &workers, monitor, 0.0..0.3)?;
-        let deltas = collected.into_deltas();
+        let deltas = Self::deltas(&lattice, &workers, monitor)?;
         let effort = Effort { sweeps: options.sweeps, most: options.max_sweeps, gap: options.gap };
         let report = |done: f32| monitor.report(0.3 + 0.5 * done);
-        let (slopes, certificate) = solve(layout, &deltas, &effort, &workers, report)?;
+        let (slopes, certificate) = solve(lattice.layout(), &deltas, &effort, &workers, report)?;
         monitor.report(0.8)?;
         let decomposition = Self::of_slopes(lattice, deltas, slopes, certificate, &workers);
         monitor.report(1.0)?;
         Ok(decomposition)
+    }
+
+    /// Decomposes a field whose samples cost what they are said to, in the order of the heights, in place of 1 each:
+    /// positive and finite. What is least for a given error is then what is left costs together. Sweeps go up to
+    /// [`DecompositionOptions::max_sweeps`], on one thread, and there is no certificate: the
+    /// [gap](Approximation::certified_gap) is infinite.
+    pub fn with_costs(
+        field: HeightField,
+        costs: &[f32],
+        options: &DecompositionOptions,
+        monitor: &mut Monitor,
+    ) -> Result<Self, Error> {
+        let (columns, rows) = (field.columns(), field.rows());
+        if costs.len() != field.heights().len() {
+            return Err(Error::SampleCount { what: "costs", count: costs.len(), columns, rows });
+        }
+        if let Some(sample) = costs.iter().position(|cost| !(cost.is_finite() && *cost > 0.0)) {
+            let (value, column, row) = (costs[sample], sample % columns, sample / columns);
+            return Err(Error::NotFinite { what: "cost", value, column, row });
+        }
+        let workers = Workers::new(options.threads)?;
+        monitor.report(0.0)?;
+        let lattice = Lattice::new(field);
+        let deltas = Self::deltas(&lattice, &workers, monitor)?;
+        let layout = lattice.layout();
+        // What lies beyond the field costs what lies nearest in it does.
+        let cost = |vertex: usize| {
+            let Site { x, y, .. } = layout.site(vertex);
+            costs[y.min(rows - 1) * columns + x.min(columns - 1)]
+        };
+        let by_vertex: Vec<f32> = (0..layout.vertices()).map(cost).collect();
+        let report = |done: f32| monitor.report(0.3 + 0.5 * done);
+        let slopes = rate::solve(layout, &deltas, &by_vertex, options.max_sweeps, report)?;
+        let decomposition = Self::of_slopes(lattice, deltas, slopes, Certificate::none(), &workers);
+        monitor.report(1.0)?;
+        Ok(Self { costs: Some(by_vertex), ..decomposition })
+    }
+
+    fn deltas(lattice: &Lattice, workers: &Workers, monitor: &mut Monitor) -> Result<Vec<f32>, Error> {
+        let collected = Collected::new(lattice);
+        distortions(&collected, lattice.roots(), lattice.layout().levels(), workers, monitor, 0.0..0.3)?;
+        Ok(collected.into_deltas())
     }
 
     /// The order of given slopes, none less than that of a child; finer levels first where slopes are equal.
@@ -125,7 +175,23 @@ impl Decomposition {
         let order: Vec<u32> = keys.into_iter().map(|key| !(key as u32)).collect();
         let removable = order.partition_point(|&vertex| slopes[vertex as usize] < NEVER);
         let weight = total_weight(&lattice);
-        Self { lattice, deltas, slopes, order, removable, certificate, weight, noted: OnceLock::new() }
+        Self {
+            lattice,
+            deltas,
+            slopes,
+            order,
+            removable,
+            certificate,
+            costs: None,
+            weight,
+            noted: OnceLock::new(),
+        }
+    }
+
+    /// What it is made of: the grid, the slopes of [`of_slopes`](Self::of_slopes), and the proof.
+    #[cfg(feature = "io")]
+    pub(crate) fn parts(&self) -> (&Lattice, &[f32], &Certificate) {
+        (&self.lattice, &self.slopes, &self.certificate)
     }
 
     /// The field.
@@ -150,6 +216,7 @@ impl Decomposition {
         match detail {
             Detail::Vertices(vertices) => Ok(count(vertices)),
             Detail::Ratio(ratio) => Ok(count(self.part(ratio)?)),
+            Detail::Cost(cost) => Ok(self.approximation(self.removed_for_cost(cost)?)),
             Detail::Rms(rms) => Ok(self.approximation(self.removed_within(self.squared(rms)?))),
             Detail::MaxError(bound) => {
                 let left = self.within(self.removable, check_error("maximum error", bound)?);
@@ -178,6 +245,7 @@ impl Decomposition {
         match detail {
             Detail::Vertices(vertices) => few(vertices),
             Detail::Ratio(ratio) => few(self.part(ratio)?),
+            Detail::Cost(cost) => few(self.extract(self.removed_for_cost(cost)?).places.len()),
             Detail::MaxError(other) => {
                 self.at(Detail::MaxError(check_error("maximum error", other)?.min(bound)))
             }
@@ -188,16 +256,13 @@ impl Decomposition {
         }
     }
 
-    /// How far, in decibels of squared error, the mesh of so many vertices can be above the best conforming mesh of
-    /// as many: proven for this field, by a bound on all of them. Infinite if nothing is known.
-    pub fn certified_gap(&self, vertices: usize) -> f64 {
-        let removed = self.removed_for(vertices);
-        decibels(self.squared_error(removed), self.certificate.bound(removed))
-    }
-
-    /// The RMS of the mesh of so many vertices, as tracked.
-    pub fn rms(&self, vertices: usize) -> f64 {
-        self.root_mean(self.squared_error(self.removed_for(vertices)))
+    /// What is measured between the field and what was taken from it, sample by sample. Linear in the samples.
+    pub fn measure(&self, taken: &Approximation) -> VerticalError {
+        let columns = self.field().columns() as u32;
+        let places: Vec<Place> =
+            taken.samples.iter().map(|&sample| [sample % columns, sample / columns]).collect();
+        let heights: Vec<f32> = taken.mesh.positions().iter().map(|&[_, _, height]| height).collect();
+        measure(self.field(), &places, &heights, taken.mesh.triangles())
     }
 
     /// How many vertices have to go so that no more than so many are left: as few as can be.
@@ -214,8 +279,23 @@ impl Decomposition {
         }
     }
 
+    /// How many vertices have to go so that the others cost no more than that.
+    fn removed_for_cost(&self, limit: f64) -> Result<usize, Error> {
+        if !(limit >= 0.0) {
+            return Err(Error::Target { what: "cost", value: limit, expected: "it must not be negative" });
+        }
+        let cost = |&vertex: &u32| self.costs.as_ref().map_or(1.0, |costs| f64::from(costs[vertex as usize]));
+        let mut left = 0.0;
+        let stays = |vertex: &&u32| {
+            left += cost(vertex);
+            left <= limit
+        };
+        Ok((self.order.len() - self.order.iter().rev().take_while(stays).count()).min(self.removable))
+    }
+
     /// How many vertices may go within a squared error.
     fn removed_within(&self, limit: f64) -> usize {
+        let limit = limit / self.lattice.squared_unit();
         let noted = self.noted();
         // The error may fall a little on its way; what comes last counts.
         let Some(note) = noted.iter().rposition(|&error| error <= limit) else { return 0 };
@@ -232,19 +312,24 @@ impl Decomposition {
     }
 
     /// The squared error once so many vertices are gone.
-    fn squared_error(&self, removed: usize) -> f64 {
+    pub(crate) fn squared_error(&self, removed: usize) -> f64 {
         let note = removed / NOTED;
         let rest = self.order[note * NOTED..removed].iter();
         let error =
             rest.fold(self.noted()[note], |error, &vertex| error + f64::from(self.deltas[vertex as usize]));
-        error.max(0.0)
+        error.max(0.0) * self.lattice.squared_unit()
+    }
+
+    /// The least squared error of any conforming mesh that lacks so many vertices.
+    pub(crate) fn bound(&self, removed: usize) -> f64 {
+        self.certificate.bound(removed) * self.lattice.squared_unit()
     }
 
     fn noted(&self) -> &[f64] {
         self.noted.get_or_init(|| {
             let mut error = 0.0;
             let mut notes = vec![0.0];
-            for vertices in self.order[..self.removable].chunks(NOTED) {
+            for vertices in self.order[..self.removable].chunks_exact(NOTED) {
                 error += vertices.iter().map(|&vertex| f64::from(self.deltas[vertex as usize])).sum::<f64>();
                 notes.push(error);
             }
@@ -266,12 +351,17 @@ impl Decomposition {
         Ok(check_error("RMS", rms)?.powi(2) * self.weight)
     }
 
-    fn root_mean(&self, squared_error: f64) -> f64 {
+    pub(super) fn root_mean(&self, squared_error: f64) -> f64 {
         if self.weight > 0.0 { (squared_error / self.weight).sqrt() } else { 0.0 }
     }
 
+    /// How many vertices may go.
+    pub(super) fn removable(&self) -> usize {
+        self.removable
+    }
+
     /// The vertices that are left once so many are gone, and those that the bound needs.
-    fn within(&self, removed: usize, bound: f64) -> Left {
+    pub(crate) fn within(&self, removed: usize, bound: f64) -> Left {
         let cut = self.cut(removed);
         max_error::least(&self.lattice, bound, |vertex| key(&self.slopes, vertex) >= cut)
     }
@@ -281,13 +371,18 @@ impl Decomposition {
         self.order.get(removed).map_or(u64::MAX, |&vertex| key(&self.slopes, vertex as usize))
     }
 
-    fn extract(&self, removed: usize) -> Extract {
+    pub(crate) fn extract(&self, removed: usize) -> Extract {
         let cut = self.cut(removed);
         extract(&self.lattice, |vertex| key(&self.slopes, vertex) >= cut)
     }
 
+    /// The mesh of so many vertices.
+    pub(super) fn places(&self, vertices: usize) -> Extract {
+        self.extract(self.removed_for(vertices))
+    }
+
     fn approximation(&self, removed: usize) -> Approximation {
-        self.finish(self.extract(removed), self.squared_error(removed))
+        self.finish(self.extract(removed), self.squared_error(removed), removed)
     }
 
     fn extract_set(&self, left: &Left) -> Extract {
@@ -295,22 +390,39 @@ impl Decomposition {
     }
 
     fn of_set(&self, left: &Left) -> Approximation {
-        self.finish(self.extract_set(left), self.squared_error_of(left))
+        let removed = (0..self.order.len()).filter(|&vertex| !left.contains(vertex)).count();
+        self.finish(self.extract_set(left), self.squared_error_of(left), removed)
     }
 
     fn squared_error_of(&self, left: &Left) -> f64 {
         let gone = self.deltas.iter().enumerate().filter(|&(vertex, _)| !left.contains(vertex));
-        gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>().max(0.0)
+        gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>().max(0.0) * self.lattice.squared_unit()
     }
 
-    fn finish(&self, extract: Extract, squared_error: f64) -> Approximation {
+    fn finish(&self, extract: Extract, squared_error: f64, removed: usize) -> Approximation {
         let columns = self.field().columns() as u32;
         Approximation {
-            mesh: extract.to_mesh(&self.lattice),
+            mesh: extract.to_mesh(self.field()),
             samples: extract.places.iter().map(|[x, y]| y * columns + x).collect(),
             squared_error,
             rms: self.root_mean(squared_error),
+            certified_gap: decibels(squared_error, self.bound(removed)),
         }
+    }
+}
+
+#[cfg(test)]
+impl Decomposition {
+    pub(crate) fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    pub(crate) fn is_forced(&self, vertex: usize) -> bool {
+        self.slopes[vertex] >= NEVER
     }
 }
 

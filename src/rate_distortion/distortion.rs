@@ -54,9 +54,14 @@ pub(crate) struct Half {
 }
 
 impl Half {
+    /// Where its midpoint lies.
+    pub(crate) fn middle(&self) -> Place {
+        [(self.from[0] + self.to[0]) / 2, (self.from[1] + self.to[1]) / 2]
+    }
+
     pub(crate) fn midpoint(&self) -> Site {
-        let middle = |axis: usize| ((self.from[axis] + self.to[axis]) / 2) as usize;
-        Site { x: middle(0), y: middle(1), level: self.level }
+        let [x, y] = self.middle().map(|coordinate| coordinate as usize);
+        Site { x, y, level: self.level }
     }
 
     /// On which side of its midpoint it lies: 0 above it or to its left, 1 below it or to its right.
@@ -69,8 +74,7 @@ impl Half {
     /// Its two halves, in the winding that it has.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let Self { apex, from, to, level } = *self;
-        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-        let level = level + 1;
+        let (middle, level) = (self.middle(), level + 1);
         [Self { apex: middle, from: apex, to: from, level }, Self { apex: middle, from: to, to: apex, level }]
     }
 }
@@ -134,63 +138,68 @@ pub(crate) fn distortions<F: Field>(
         tasks = tasks.iter().flat_map(Half::halves).collect();
     }
     let total = tasks.len();
+    let values =
+        |triangle: &Half| [triangle.apex, triangle.from, triangle.to].map(|place| field.value(place));
     let mut moments = Vec::with_capacity(total);
     for chunk in tasks.chunks(TASKS_A_REPORT) {
-        moments
-            .extend(workers.map(chunk.to_vec(), |triangle| descend(field, triangle, levels, &mut |_| None)));
+        let work = |triangle: Half| descend(field, &triangle, values(&triangle), levels, &mut |_| None);
+        moments.extend(workers.map(chunk.to_vec(), work));
         let done = moments.len() as f32 / total as f32;
         monitor.report(share.start + done * (share.end - share.start))?;
     }
     let mut moments = moments.into_iter();
+    let mut found = |triangle: &Half| (triangle.level == cut).then(|| moments.next()).flatten();
     for root in roots {
-        descend(field, root, levels, &mut |triangle| {
-            (triangle.level == cut).then(|| moments.next()).flatten()
-        });
+        descend(field, &root, values(&root), levels, &mut found);
     }
     Ok(())
 }
 
-/// The moments of a triangle, and the changes of the vertices in it; those of triangles that `found` knows are
-/// taken as they are.
+/// The moments of a triangle with these values at its corners, and the changes of the vertices in it; those of
+/// triangles that `found` knows are taken as they are.
 fn descend<F: Field>(
     field: &F,
-    triangle: Half,
+    triangle: &Half,
+    values: [F::Value; 3],
     levels: u32,
     found: &mut impl FnMut(&Half) -> Option<Moments<F::Value>>,
 ) -> Moments<F::Value> {
-    if let Some(moments) = found(&triangle) {
+    if let Some(moments) = found(triangle) {
         return moments;
     }
-    let Half { apex, from, to, level } = triangle;
-    let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-    let height = field.value(middle) - (field.value(from) + field.value(to)) * 0.5;
-    // A sample on an edge belongs to the triangles on both sides by halves.
-    let weight = field.weight(middle) * if field.is_rim(from, to) { 1.0 } else { 0.5 };
-    let half = height * (0.5 * weight);
-    let quarter = 0.25 * weight;
-    if level == levels {
-        let known = field.known(apex) | field.known(from) | field.known(to) | field.known(middle);
-        field.take(&triangle, change(height.dot(height) * weight, known));
-        let residual = [F::Value::default(), half, half];
-        return Moments { residual, square: [0.0, quarter, quarter], mixed: [0.0, quarter, 0.0], known };
+    let [apex, from, to] = values;
+    let middle = field.value(triangle.middle());
+    let height = middle - (from + to) * 0.5;
+    let weight = own_weight(field, triangle);
+    if triangle.level == levels {
+        return smallest(field, triangle, height, weight);
     }
-    let [first, second] = triangle.halves();
-    let first = descend(field, first, levels, found);
-    let second = descend(field, second, levels, found);
+    let halves = triangle.halves();
+    let values = [[middle, apex, from], [middle, to, apex]];
+    // Half of all triangles are the smallest: for them, a call would cost more than what there is to do.
+    let [first, second] = match triangle.level + 1 == levels {
+        true => std::array::from_fn(|half| {
+            let [_, from, to] = values[half];
+            let below = field.value(halves[half].middle()) - (from + to) * 0.5;
+            smallest(field, &halves[half], below, own_weight(field, &halves[half]))
+        }),
+        false => [0, 1].map(|half| descend(field, &halves[half], values[half], levels, found)),
+    };
     let known = first.known | second.known;
     let own = first.square[0] + second.square[0];
     let grows =
         height.dot(first.residual[0] + second.residual[0]) * 2.0 + height.dot(height) * (own + weight);
-    field.take(&triangle, change(grows, known));
+    field.take(triangle, change(grows, known));
 
     // Residuals against the plane of the whole; the corners of the halves are midpoint, apex, from and midpoint,
     // to, apex.
     let [a_middle, a_apex, a_from] = shifted(&first, height);
     let [b_middle, b_to, b_apex] = shifted(&second, height);
     // The midpoint's coordinate goes to both ends of the edge by halves.
-    let shared = (a_middle + b_middle) * 0.5 + half;
-    let ends = 0.25 * own + quarter;
+    let shared = (a_middle + b_middle) * 0.5 + height * (0.5 * weight);
+    let ends = 0.25 * (own + weight);
     let (from_middle, to_middle) = (first.mixed[2], second.mixed[0]);
+    let apex_middle = 0.5 * (first.mixed[0] + second.mixed[2]);
     Moments {
         residual: [a_apex + b_apex, a_from + shared, b_to + shared],
         square: [
@@ -199,12 +208,35 @@ fn descend<F: Field>(
             second.square[1] + to_middle + ends,
         ],
         mixed: [
-            first.mixed[1] + 0.5 * (first.mixed[0] + second.mixed[2]),
+            first.mixed[1] + apex_middle,
             0.5 * (from_middle + to_middle) + ends,
-            second.mixed[1] + 0.5 * (first.mixed[0] + second.mixed[2]),
+            second.mixed[1] + apex_middle,
         ],
         known,
     }
+}
+
+/// A triangle whose halves have no samples but at corners; its midpoint stands `height` above the edge it splits.
+#[inline(always)]
+fn smallest<F: Field>(field: &F, triangle: &Half, height: F::Value, weight: f64) -> Moments<F::Value> {
+    let corners = [triangle.apex, triangle.from, triangle.to, triangle.middle()];
+    let known = corners.into_iter().fold(0, |known, place| known | field.known(place));
+    field.take(triangle, change(height.dot(height) * weight, known));
+    let half = height * (0.5 * weight);
+    let quarter = 0.25 * weight;
+    Moments {
+        residual: [F::Value::default(), half, half],
+        square: [0.0, quarter, quarter],
+        mixed: [0.0, quarter, 0.0],
+        known,
+    }
+}
+
+/// How much the midpoint counts on this side: a sample on an edge belongs to the triangles on both by halves.
+#[inline(always)]
+fn own_weight<F: Field>(field: &F, triangle: &Half) -> f64 {
+    let part = if field.is_rim(triangle.from, triangle.to) { 1.0 } else { 0.5 };
+    field.weight(triangle.middle()) * part
 }
 
 /// The residual moments of a half once its apex has sunk by `height`.

@@ -6,6 +6,7 @@
 use hashbrown::HashMap;
 
 use super::distortion::{Half, Place, VOID};
+use super::height_field::HeightField;
 use super::lattice::Lattice;
 use crate::mesh::{Attributes, Mesh};
 
@@ -109,22 +110,30 @@ impl Extract {
     }
 
     /// As a mesh in space, with texture coordinates.
-    pub(crate) fn to_mesh(&self, lattice: &Lattice) -> Mesh {
-        let field = lattice.field();
-        let split = |&[x, y]: &Place| (x as usize, y as usize);
-        let positions = self.places.iter().zip(&self.heights);
-        let positions = positions.map(|(place, &height)| {
-            let (column, row) = split(place);
-            field.position(column, row, height)
-        });
-        let uvs = self.places.iter().map(|place| {
-            let (column, row) = split(place);
-            field.uv(column, row)
-        });
-        let attributes = Attributes { uvs: Some(uvs.collect()), ..Attributes::default() };
-        Mesh::with_attributes(positions.collect(), self.triangles.clone(), attributes)
-            .expect("heights and spacing are finite, and triangles name vertices there are")
+    pub(crate) fn to_mesh(&self, field: &HeightField) -> Mesh {
+        mesh_over(field, &self.places, &self.heights, self.triangles.clone())
     }
+}
+
+/// A mesh in space, with texture coordinates, of vertices that stand over samples of a field.
+pub(crate) fn mesh_over(
+    field: &HeightField,
+    places: &[Place],
+    heights: &[f32],
+    triangles: Vec<[u32; 3]>,
+) -> Mesh {
+    let split = |&[x, y]: &Place| (x as usize, y as usize);
+    let positions = places.iter().zip(heights).map(|(place, &height)| {
+        let (column, row) = split(place);
+        field.position(column, row, height)
+    });
+    let uvs = places.iter().map(|place| {
+        let (column, row) = split(place);
+        field.uv(column, row)
+    });
+    let attributes = Attributes { uvs: Some(uvs.collect()), ..Attributes::default() };
+    Mesh::with_attributes(positions.collect(), triangles, attributes)
+        .expect("heights and spacing are finite, and triangles name vertices there are")
 }
 
 /// Cuts triangles off at the edges of the field.
@@ -145,9 +154,13 @@ impl Cutting<'_> {
         let mut polygon = corners.to_vec();
         for (axis, limit) in limits.into_iter().enumerate() {
             polygon = self.cut(&polygon, axis, limit);
+            // What only touches the edge is a point or a line.
+            if polygon.len() < 3 {
+                return;
+            }
         }
         let is_void = |&vertex: &u32| self.lattice.known(self.extract.places[vertex as usize]) == VOID;
-        if polygon.len() < 3 || polygon.iter().any(is_void) {
+        if polygon.iter().any(is_void) {
             return;
         }
         let fan = polygon[1..].windows(2).map(|pair| [polygon[0], pair[0], pair[1]]);

@@ -299,6 +299,44 @@ pub(crate) struct Certificate {
 /// How many leading bits a class is made of: sign, exponent and seven of the fraction.
 const CLASS_BITS: u32 = 16;
 
+/// A class that slopes are in.
+#[cfg(feature = "io")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Class {
+    pub(crate) number: u32,
+    /// How many slopes there are in it and in those before, and their sum.
+    pub(crate) count: u64,
+    pub(crate) sum: f64,
+}
+
+#[cfg(feature = "io")]
+impl Certificate {
+    /// How many classes there are.
+    pub(crate) const CLASSES: u32 = 1 << CLASS_BITS;
+
+    /// The classes that slopes are in, in their order.
+    pub(crate) fn classes(&self) -> Vec<Class> {
+        let mut before = 0;
+        let classes = self.sums.iter().zip(0..).filter(|((count, _), _)| {
+            let is_new = *count > before;
+            before = *count;
+            is_new
+        });
+        classes.map(|(&(count, sum), number)| Class { number, count, sum }).collect()
+    }
+
+    /// From classes whose numbers, below 2^16, and whose counts grow.
+    pub(crate) fn of_classes(classes: &[Class]) -> Self {
+        let mut sums = vec![(0, 0.0); 1 << CLASS_BITS];
+        let ends = classes.iter().skip(1).map(|class| class.number as usize).chain([sums.len()]);
+        let parts: Vec<_> = classes.iter().zip(ends).collect();
+        for (class, end) in parts {
+            sums[class.number as usize..end].fill((class.count, class.sum));
+        }
+        Self { sums }
+    }
+}
+
 impl Certificate {
     /// From slopes that are not raised.
     pub(crate) fn new(slopes: &[f32]) -> Self {
@@ -317,6 +355,11 @@ impl Certificate {
         Self { sums }
     }
 
+    /// Nothing is known: what is least may be 0.
+    pub(crate) fn none() -> Self {
+        Self { sums: Vec::new() }
+    }
+
     /// How many slopes there are.
     fn count(&self) -> u64 {
         self.sums.last().map_or(0, |&(count, _)| count)
@@ -330,7 +373,7 @@ impl Certificate {
             Some(before) => self.sums[before],
             None => (0, 0.0),
         };
-        if whole == removed || class == self.sums.len() {
+        if whole == removed || class >= self.sums.len() {
             return sum;
         }
         sum + (removed - whole) as f64 * f64::from(of_rank((class as u32) << (32 - CLASS_BITS)))
@@ -410,6 +453,6 @@ pub(crate) fn rank(value: f32) -> u32 {
 }
 
 /// The number with such bits.
-fn of_rank(rank: u32) -> f32 {
+pub(crate) fn of_rank(rank: u32) -> f32 {
     f32::from_bits(if rank >> 31 == 1 { rank & !(1 << 31) } else { !rank })
 }

@@ -14,15 +14,31 @@ pub(crate) struct Lattice {
     layout: Layout,
     /// The heights of all samples of the layout, where the field has not one for each.
     filled: Option<Vec<f32>>,
+    /// Whether nothing comes beyond the left, right, upper and lower edge.
+    rims: [bool; 4],
+    /// What heights and weights are divided by, powers of two, so that no sum of squares is beyond what an `f32`
+    /// holds, whatever the unit.
+    units: [f64; 2],
 }
 
 impl Lattice {
     pub(crate) fn new(field: HeightField) -> Self {
         let layout = Layout::covering(field.columns(), field.rows());
+        let units = units(field.range(), field.importance());
+        Self::of_layout(field, layout, [true; 4], units)
+    }
+
+    /// A part of a larger field, on one quad of 2^`depth` samples: samples on those of its edges that are not the
+    /// rim count half here and half beyond.
+    pub(crate) fn tile(field: HeightField, depth: u32, rims: [bool; 4], units: [f64; 2]) -> Self {
+        Self::of_layout(field, Layout::new([1, 1], depth), rims, units)
+    }
+
+    fn of_layout(field: HeightField, layout: Layout, rims: [bool; 4], units: [f64; 2]) -> Self {
         let [right, bottom] = layout.extent();
         let fits = (right + 1, bottom + 1) == (field.columns(), field.rows());
         let filled = (!fits || field.voids() > 0).then(|| filled(&field, right + 1, bottom + 1));
-        Self { field, layout, filled }
+        Self { field, layout, filled, rims, units }
     }
 
     pub(crate) fn field(&self) -> &HeightField {
@@ -52,7 +68,17 @@ impl Lattice {
         (x as usize) < self.field.columns() && (y as usize) < self.field.rows()
     }
 
-    /// How much the squared error at a sample counts: nothing where nothing is known.
+    /// What a height is divided by where squared errors are summed up.
+    pub(crate) fn unit(&self) -> f64 {
+        self.units[0]
+    }
+
+    /// What a sum of squared errors, of heights and weights that were divided, has to be multiplied by.
+    pub(crate) fn squared_unit(&self) -> f64 {
+        self.units[0] * self.units[0] * self.units[1]
+    }
+
+    /// How much the squared error at a sample counts, of 1: nothing where nothing is known.
     pub(crate) fn weight(&self, place: Place) -> f64 {
         if !self.is_inside(place) {
             return 0.0;
@@ -60,7 +86,7 @@ impl Lattice {
         let sample = place[1] as usize * self.field.columns() + place[0] as usize;
         match self.field.importance() {
             _ if self.field.heights()[sample].is_nan() => 0.0,
-            Some(importance) => f64::from(importance[sample]),
+            Some(importance) => f64::from(importance[sample]) / self.units[1],
             None => 1.0,
         }
     }
@@ -95,31 +121,65 @@ impl Lattice {
     }
 }
 
-/// The field's own heights, mirrored at its right and at its lower edge, and voids filled with what is known
-/// beside them.
+/// What heights of a range and weights are divided by: the powers of two at or below the range and the largest.
+pub(crate) fn units((low, high): (f32, f32), importance: Option<&[f32]>) -> [f64; 2] {
+    let power_of_two = |number: f64| if number > 0.0 { number.log2().floor().exp2() } else { 1.0 };
+    let most = importance.unwrap_or(&[1.0]).iter().fold(0.0, |most: f32, &weight| most.max(weight));
+    [power_of_two(f64::from(high) - f64::from(low)), power_of_two(f64::from(most))]
+}
+
+/// The field's own heights, 0 in place of voids; beyond its right and its lower edge it is turned about the edge by
+/// half a turn, which goes on as a plane where the field is one.
+///
+/// What stands at a place depends on its own row and column alone, so that tiles agree on their common edges.
 fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
     let (columns, rows) = (field.columns(), field.rows());
-    let mirrored = |index: usize, count: usize| {
-        let period = 2 * (count - 1);
-        let index = index % period;
-        index.min(period - index)
-    };
-    let mut heights = Vec::with_capacity(width * height);
-    for y in 0..height {
-        let row = mirrored(y, rows) * columns;
-        heights.extend((0..width).map(|x| field.heights()[row + mirrored(x, columns)]));
+    let or_zero = |height: f32| if height.is_nan() { 0.0 } else { height };
+    let mut heights = vec![0.0; width * height];
+    for y in 0..rows {
+        let known = &field.heights()[y * columns..][..columns];
+        let turned = Turned::new(columns, |x| known[x]);
+        let row = &mut heights[y * width..][..width];
+        row.iter_mut().enumerate().for_each(|(x, height)| *height = turned.at(x));
     }
-    if field.voids() > 0 {
-        let mut last = f32::NAN;
-        let mut fill = |height: &mut f32| match height.is_nan() {
-            true => *height = last,
-            false => last = *height,
-        };
-        // The first heights may be void; the way back fills them with what came first.
-        heights.iter_mut().for_each(&mut fill);
-        heights.iter_mut().rev().for_each(&mut fill);
+    for x in 0..width {
+        // Columns beyond the right edge are turned about the lower one as they are there.
+        let is_void = |y: usize| x < columns && field.is_void(x, y);
+        let column: Vec<f32> =
+            (0..rows).map(|y| if is_void(y) { f32::NAN } else { heights[y * width + x] }).collect();
+        let turned = Turned::new(rows, |y| column[y]);
+        (rows..height).for_each(|y| heights[y * width + x] = turned.at(y));
     }
+    heights.iter_mut().for_each(|height| *height = or_zero(*height));
     heights
+}
+
+/// A line of heights that goes on beyond its end, turned about it, and about where it began, and so on.
+struct Turned<F> {
+    last: usize,
+    height: F,
+}
+
+impl<F: Fn(usize) -> f32> Turned<F> {
+    fn new(count: usize, height: F) -> Self {
+        Self { last: count - 1, height }
+    }
+
+    /// Not a number where void; beyond the end, what is void on the way counts as being as high as the end.
+    fn at(&self, index: usize) -> f32 {
+        if index <= self.last {
+            return (self.height)(index);
+        }
+        let (turns, rest) = (index / (2 * self.last), index % (2 * self.last));
+        let end = f64::from((self.height)(self.last));
+        let known = |index: usize| match f64::from((self.height)(index)) {
+            void if void.is_nan() => end,
+            height => height,
+        };
+        let within = if rest <= self.last { known(rest) } else { 2.0 * end - known(2 * self.last - rest) };
+        let height = within + turns as f64 * 2.0 * (end - known(0));
+        (height as f32).clamp(f32::MIN, f32::MAX)
+    }
 }
 
 /// A lattice that collects the changes of distortion of its vertices.
@@ -127,6 +187,7 @@ pub(crate) struct Collected<'a> {
     lattice: &'a Lattice,
     width: usize,
     heights: &'a [f32],
+    per_unit: f64,
     /// Whether each sample counts as one, as nearly always.
     is_plain: bool,
     /// What the triangles on either side of the edge that a vertex splits add. Each writes to its own, so that
@@ -141,12 +202,13 @@ impl<'a> Collected<'a> {
             lattice,
             width: lattice.layout.extent()[0] + 1,
             heights: lattice.heights(),
+            per_unit: lattice.unit().recip(),
             is_plain: lattice.fits() && lattice.field.importance().is_none(),
             sides: [zeros(), zeros()],
         }
     }
 
-    /// The change of distortion of each vertex, by number.
+    /// The change of distortion of each vertex, by number, over [`Lattice::squared_unit`].
     pub(crate) fn into_deltas(self) -> Vec<f32> {
         let [first, second] = self.sides;
         let value = |bits: AtomicU32| f32::from_bits(bits.into_inner());
@@ -162,7 +224,7 @@ impl Field for Collected<'_> {
     }
 
     fn value(&self, [x, y]: Place) -> f64 {
-        f64::from(self.heights[y as usize * self.width + x as usize])
+        f64::from(self.heights[y as usize * self.width + x as usize]) * self.per_unit
     }
 
     fn weight(&self, place: Place) -> f64 {
@@ -171,8 +233,11 @@ impl Field for Collected<'_> {
 
     fn is_rim(&self, from: Place, to: Place) -> bool {
         let [right, bottom] = self.lattice.layout.extent();
-        (from[0] == to[0] && (from[0] == 0 || from[0] as usize == right))
-            || (from[1] == to[1] && (from[1] == 0 || from[1] as usize == bottom))
+        let [left_rim, right_rim, upper_rim, lower_rim] = self.lattice.rims;
+        let on = |axis: usize, last: usize, low: bool, high: bool| {
+            from[axis] == to[axis] && ((low && from[axis] == 0) || (high && from[axis] as usize == last))
+        };
+        on(0, right, left_rim, right_rim) || on(1, bottom, upper_rim, lower_rim)
     }
 
     fn take(&self, triangle: &Half, change: f32) {

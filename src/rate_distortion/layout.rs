@@ -66,6 +66,11 @@ impl Layout {
         self.base
     }
 
+    /// The side of a base quad is 2 to the power of this.
+    pub(crate) fn depth(&self) -> u32 {
+        self.depth
+    }
+
     /// The side of a base quad, in samples.
     pub(crate) fn side(&self) -> usize {
         1 << self.depth

@@ -8,4 +8,5 @@ mod levels;
 mod play;
 mod remesh;
 mod simplify;
+mod terrain;
 mod workbench;

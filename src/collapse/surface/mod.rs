@@ -60,6 +60,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 const VERTEX_BLOCK: usize = 1 << 15;
 
 /// A surface at an earlier time.
+#[derive(Clone)]
 pub(crate) struct Snapshot {
     points: Vec<Vec4>,
     faces: Vec<[u32; 3]>,
@@ -363,6 +364,17 @@ impl Surface {
         self.origins = snapshot.origins;
         self.sources = snapshot.sources;
         self.collapses = snapshot.collapses;
+    }
+
+    /// Whether there are seams that vertices do not cross.
+    pub(crate) fn keeps_seams(&self) -> bool {
+        !self.wedges.is_empty() && !self.cross_seams
+    }
+
+    /// From now on vertices may go across seams, but for those that are protected.
+    pub(crate) fn cross_seams(&mut self) {
+        self.cross_seams = true;
+        self.flags.iter_mut().for_each(|flags| *flags &= !flag::BLOCKED);
     }
 
     /// Gives the rings' memory back.

@@ -77,6 +77,8 @@ pub(crate) struct Finish<'a> {
     stamp: u32,
     counts: Counts,
     scratch: Scratch,
+    /// The vertex whose ring `scratch.source` is, with its corners, if nothing has changed since it was gathered.
+    gathered: Option<u32>,
     around: Vec<u32>,
 }
 
@@ -120,10 +122,11 @@ impl<'a> Finish<'a> {
             stamp: 0,
             counts,
             scratch: Scratch::default(),
+            gathered: None,
             around: Vec::new(),
         };
         for vertex in 0..vertices as u32 {
-            if !finish.refresh(vertex) {
+            if !finish.renew(vertex) {
                 finish.bury(vertex);
             }
         }
@@ -143,9 +146,26 @@ impl<'a> Finish<'a> {
         loop {
             self.empty_queue(goal, report)?;
             if !self.settle_hubs() {
+                self.renew_flags();
                 return Ok(self.counts);
             }
         }
+    }
+
+    /// Brings up to date what passes to come want to know of the vertices whose rings have changed, and which
+    /// did not come up again. Only where the topology is given up do borders come and go.
+    fn renew_flags(&mut self) {
+        if !self.rules.half_edge || !self.rules.any_topology {
+            return;
+        }
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for vertex in 0..self.stale.len() as u32 {
+            if self.stale[vertex as usize] {
+                self.gather_source(vertex, &mut scratch);
+                self.flags_of(&scratch.source);
+            }
+        }
+        self.scratch = scratch;
     }
 
     fn empty_queue(
@@ -203,7 +223,7 @@ impl<'a> Finish<'a> {
             }
         }
         for &hub in &hubs {
-            self.refresh(hub);
+            self.renew(hub);
         }
         let is_split = hubs.len() > count;
         if is_split {
@@ -240,14 +260,26 @@ impl<'a> Finish<'a> {
         });
     }
 
+    /// Gathers the ring of `vertex` as the source of `scratch`, if it is not there as it is.
+    fn gather_source(&mut self, vertex: u32, scratch: &mut Scratch) {
+        if self.gathered != Some(vertex) {
+            self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+            self.gathered = Some(vertex);
+        }
+    }
+
     fn position(&self, vertex: u32) -> Vec3A {
         Vec3A::from_vec4(self.surface.points[vertex as usize])
     }
 
-    /// Renews what is known about a vertex whose ring has changed; `false` if no face is left.
-    fn refresh(&mut self, vertex: u32) -> bool {
+    /// Renews what others look at of a vertex whose ring has changed; `false` if no face is left. Where vertices
+    /// stay, that is nothing: a vertex gathers what it needs when its own cost is asked for.
+    fn renew(&mut self, vertex: u32) -> bool {
+        if self.rules.half_edge {
+            return self.degrees[vertex as usize] > 0;
+        }
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        self.gather_source(vertex, &mut scratch);
         let ring = &scratch.source;
         self.flags_of(ring);
         self.quadrics[vertex as usize] = ring.quadric;
@@ -335,8 +367,8 @@ impl<'a> Finish<'a> {
             return IMPOSSIBLE;
         }
         let mut scratch = std::mem::take(&mut self.scratch);
+        self.gather_source(vertex, &mut scratch);
         let Scratch { source, half_edge, .. } = &mut scratch;
-        self.gather(vertex, source, &mut half_edge.wedges.corners);
         let own_flags = self.flags_of(source);
         let failed = failed.map(|failed| (failed.cost, failed.partner));
         let flags = |neighbour: u32| self.surface.flags[neighbour as usize];
@@ -375,7 +407,7 @@ impl<'a> Finish<'a> {
         let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(ends[0], &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        self.gather_source(ends[0], &mut scratch);
         self.gather(ends[1], &mut scratch.target, &mut scratch.target_corners);
         let outcome = self.collapse_gathered(ends, price, goal, &mut scratch);
         let Outcome::Done = outcome else {
@@ -408,7 +440,7 @@ impl<'a> Finish<'a> {
             }
         }
         around.retain(|&vertex| {
-            let alive = self.is_hub(vertex) || self.refresh(vertex);
+            let alive = self.is_hub(vertex) || self.renew(vertex);
             if !alive {
                 self.bury(vertex);
             }
@@ -458,20 +490,20 @@ impl<'a> Finish<'a> {
         }
         let own_flags = self.surface.flags[source as usize];
         let terms = self.terms();
-        let half_edge::Scratch { wedges, moves, .. } = half_edge;
         let is_plain = !self.rules.half_edge || terms.are_none();
-        if !is_plain {
-            wedges.look_up(&terms.wedges);
-            if !terms.find_moves(source_ring, own_flags, wedges, target, moves) {
-                return Outcome::Illegal;
+        let edge = self.position(target) - self.position(source);
+        let error = if is_plain {
+            0.0
+        } else {
+            match terms.settle(source_ring, own_flags, target, edge, half_edge) {
+                Some(error) => error,
+                None => return Outcome::Illegal,
             }
-        }
+        };
         let loss = self.loss(&doomed, Vec3A::from_vec4(collapse.point), [source, target]);
         if loss > price {
             return Outcome::Dearer(loss);
         }
-        let edge = self.position(target) - self.position(source);
-        let error = if is_plain { 0.0 } else { terms.attribute_error(source_ring, edge, half_edge) };
         let is_counted = matches!(goal, Goal::Vertices(_)) && !self.surface.wedges.is_empty();
         let losing =
             if is_counted { self.losing_names([source, target], source_ring, &doomed) } else { Vec::new() };
@@ -512,6 +544,7 @@ impl<'a> Finish<'a> {
                 self.degrees[into] += 1;
             }
         }
+        self.gathered = None;
         self.first[from] = NONE;
         self.degrees[from] = 0;
         let surface = &mut *self.surface;

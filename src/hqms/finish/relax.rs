@@ -76,7 +76,7 @@ impl Finish<'_> {
     /// new vertices are added to `around`.
     pub(super) fn split_fans(&mut self, vertex: u32, around: &mut Vec<u32>) {
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+        self.gather_source(vertex, &mut scratch);
         let mut fans = Partition::new(scratch.half_edge.wedges.corners.len());
         let names = (0..).zip(scratch.source.names());
         let mut ends: Vec<(u32, u32)> =
@@ -98,6 +98,7 @@ impl Finish<'_> {
                 });
                 around.extend((fan == face && fan > 0).then_some(owners[face as usize]));
             }
+            self.gathered = None;
             self.first[vertex as usize] = NONE;
             self.degrees[vertex as usize] = 0;
             for (&corner, &owner) in scratch.half_edge.wedges.corners.iter().zip(&owners).rev() {

@@ -165,6 +165,31 @@ fn charted_stone() -> Mesh {
     attributed(cut(&stone, |triangle| cell(&stone, triangle, 80, 9)), 4)
 }
 
+/// Seams are given up before holes, handles and components, and these only where they must be; a target that
+/// can be met along seams is.
+#[test]
+fn seams_are_crossed_where_they_must_be() {
+    let large = shapes::bumpy_sphere(40, 2);
+    let large = attributed(cut(&large, |triangle| cell(&large, triangle, 300, 9)), 4);
+    for mesh in [charted_stone(), large] {
+        let stuck = run(&mesh, &Options { topology: Topology::Keep, ..existing(Target::Triangles(40)) });
+        assert_eq!(stuck.stopped_by, StoppedBy::Stuck);
+        let within_reach = existing(Target::Triangles(2 * stuck.mesh.triangles().len()));
+        let along = run(&mesh, &Options { topology: Topology::Keep, ..within_reach.clone() });
+        let result = run(&mesh, &within_reach);
+        assert_eq!((along.stopped_by, result.mesh), (StoppedBy::Target, along.mesh));
+
+        let result = run(&mesh, &existing(Target::Triangles(60)));
+        assert_eq!(result.stopped_by, StoppedBy::Target);
+        assert!(!result.topology_changed && result.collapses.is_some());
+
+        // All protected, nothing can be crossed: what cannot be reached along seams is reached otherwise.
+        let protected = (0..mesh.positions().len() as u32).collect();
+        let result = run(&mesh, &Options { protected, ..existing(Target::Triangles(60)) });
+        assert!(result.topology_changed || result.stopped_by == StoppedBy::Stuck);
+    }
+}
+
 #[test]
 fn across_seams_one_gets_further() {
     let mesh = charted_stone();
