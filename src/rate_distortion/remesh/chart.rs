@@ -290,3 +290,61 @@ impl Riders {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::collapses;
+    use super::*;
+    use crate::mesh::shapes;
+    use crate::monitor::Monitor;
+
+    /// The chart of a mesh, coarse, with points all over it.
+    fn ridden(mesh: &Mesh, base_quads: usize) -> (Chart, Vec<Foot>) {
+        let mut chart = Chart::new(mesh).unwrap();
+        let collapses = collapses(mesh, base_quads, 1, &mut Monitor::silent()).unwrap();
+        assert!(!collapses.is_empty());
+        collapses.into_iter().for_each(|collapse| chart.collapse(collapse));
+        let steps = (0..=20).flat_map(|i| (0..=20 - i).map(move |j| [i, j, 20 - i - j]));
+        let weights = steps.map(|steps| steps.map(|step| f64::from(step) / 20.0));
+        let of = |face| weights.clone().map(move |weights| Foot { face, weights });
+        let feet = chart.faces().flat_map(|(face, _)| of(face)).collect();
+        (chart, feet)
+    }
+
+    #[test]
+    fn where_all_is_flat_nothing_moves() {
+        let sheet = shapes::plane(6);
+        let (mut chart, mut feet) = ridden(&sheet, 8);
+        let before: Vec<DVec3> = feet.iter().map(|foot| chart.point(foot)).collect();
+        chart.refine(usize::MAX, &mut feet);
+        assert!(chart.faces().eq((0..).zip(sheet.triangles().iter().copied())));
+        for (foot, before) in feet.iter().zip(before) {
+            assert!(chart.point(foot).distance(before) < 1e-9, "{before} {}", chart.point(foot));
+        }
+    }
+
+    #[test]
+    fn all_of_the_surface_is_ridden_to() {
+        let stone = shapes::bumpy_sphere(6, 1);
+        let (mut chart, mut feet) = ridden(&stone, 40);
+        let vertices = chart.vertices();
+        for more in [2 * vertices, usize::MAX] {
+            chart.refine(more, &mut feet);
+            let mut reached = vec![false; stone.triangles().len()];
+            for foot in &feet {
+                assert!(foot.weights.iter().all(|&weight| weight >= 0.0));
+                assert!((foot.weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+                reached[foot.face as usize] = true;
+            }
+            assert!(chart.faces().all(|(face, _)| reached[face as usize]));
+        }
+        assert_eq!(chart.vertices(), stone.positions().len());
+    }
+
+    #[test]
+    fn vertices_with_two_fans_are_found() {
+        let positions = (0..5).map(|i| [i as f32, (i * i) as f32, 0.0]).collect();
+        let tie = Mesh::new(positions, vec![[0, 1, 2], [2, 3, 4]]).unwrap();
+        assert_eq!(Chart::new(&tie).err(), Some(2));
+    }
+}

@@ -247,12 +247,10 @@ impl Forest {
     }
 }
 
-/// Whether so many quads have no more vertices and triangles at a depth than a mesh can name.
+/// Whether so many quads have no more triangles at a depth than a mesh can have. There are at most nine vertices for
+/// each eight of them, so that twice the number of a vertex fits into 32 bits.
 fn fits(quads: usize, depth: u32) -> bool {
-    let triangles = (quads as u128) << (2 * depth + 1);
-    // Most vertices a triangle there are where no two quads meet.
-    let vertices = quads as u128 * ((1u128 << depth) + 1).pow(2);
-    triangles <= Mesh::MAX_TRIANGLES as u128 && vertices <= u128::from(u32::MAX)
+    (quads as u128) << (2 * depth + 1) <= Mesh::MAX_TRIANGLES as u128
 }
 
 /// How many midpoints of sides of `squares` by `squares` squares are inside of a quad.
