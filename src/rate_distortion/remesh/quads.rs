@@ -4,14 +4,12 @@
 //! are cut once more, from their middle to the middles of their sides: a pair into four quads, a triangle into three.
 //! Their diagonals run from a middle to a corner, so that no two of them can be the same edge.
 
-use std::cmp::Reverse;
-
 use glam::DVec3;
 use hashbrown::HashMap;
 
 use super::chart::{Chart, Foot};
 
-/// Pairs that score less stay triangles: bent by a right angle, or with a side nearly straight on.
+/// Pairs that score less stay triangles: those bent by a right angle or more, unless they are nearly rectangles.
 const LEAST_SCORE: f64 = -0.9;
 
 /// Quads over a chart, each half of which lies in a face.
@@ -134,7 +132,7 @@ fn pairs(chart: &Chart, sides: &HashMap<[u32; 2], u32>) -> HashMap<u32, Side> {
             }
         }
     }
-    candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(Reverse(b.1).cmp(&Reverse(a.1))));
+    candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut paired = HashMap::new();
     for (_, side, other) in candidates {
         if !paired.contains_key(&side.1) && !paired.contains_key(&other) {
