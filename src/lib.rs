@@ -19,11 +19,12 @@
 //! | --- | --- | --- |
 //! | 5 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
 //! | 4 | [`lod`] | levels of detail on one vertex buffer: nested levels, progressive meshes |
+//! | 4 | [`rate_distortion`] | terrain: every rate of a field of heights from one run, TINs, tiles |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
 //! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |
 //! | 2 | `deviation` | the measured and the bounded distance between two surfaces (feature `deviation`) |
-//! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files (feature `io`) |
+//! | 2 | `io` | PLY, OBJ, STL, OFF and glTF files; heights in PNG, TIFF, NumPy and raw files (feature `io`) |
 //! | 1 | [`mesh`] | the triangle mesh, its topology, statistics, welding, checking, and shapes to try things on |
 //! | 1 | `quadric` | sums of squared distances to planes, and their minimum |
 //! | 1 | `random` | numbers that look random and are the same everywhere |

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use decimesh::io::heights::{self, HeightFormat, HeightOptions, RawLayout, SampleType};
 use decimesh::io::{Format, read_from_slice};
 use decimesh::lod::{Extent, Progressive};
+use decimesh::rate_distortion::Decomposition;
 
 struct Counting;
 
@@ -102,6 +103,16 @@ fn lying_headers_get_no_memory() {
             let (used, error) = measured(|| Progressive::read_from_slice(&bytes, extent).map(drop));
             assert!(used < 64 << 10, "{used} bytes for {numbers:?}: {error}");
         }
+    }
+
+    // Version, flags, columns, rows, quads across and down, depth.
+    for numbers in
+        [[1, 0, 60_000, 60_000, 1, 1, 16], [1, 1, u32::MAX, u32::MAX, 1, 1, 31], [1, 0, 2, u32::MAX, 1, 1, 0]]
+    {
+        let bytes =
+            [&b"\x89DRD\r\n\x1a\n"[..], numbers.map(u32::to_le_bytes).as_flattened(), &[0; 99]].concat();
+        let (used, error) = measured(|| Decomposition::read_from_slice(&bytes).map(drop));
+        assert!(used < 64 << 10, "{used} bytes for {numbers:?}: {error}");
     }
 
     // A TIFF of these tags beside those that say what samples are: each a LONG.

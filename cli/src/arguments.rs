@@ -10,7 +10,7 @@ use decimesh::mesh::Weld;
 use decimesh::{AttributeWeights, Options, Placement, Selection, Target, Topology};
 
 use crate::failure::Failure;
-use crate::terrain::{DecomposeArguments, ExtractArguments, TerrainArguments};
+use crate::terrain::{DecomposeArguments, ExtractArguments, TerrainArguments, TilesArguments};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -44,6 +44,9 @@ pub(crate) enum Command {
     /// Make a mesh of heights over a grid.
     #[command(after_help = EXIT_CODES)]
     Terrain(TerrainArguments),
+    /// Make a pyramid of tiles of heights over a grid, which may be larger than memory.
+    #[command(after_help = EXIT_CODES)]
+    TerrainTiles(TilesArguments),
     /// Store heights over a grid such that any mesh can be taken from them.
     #[command(after_help = EXIT_CODES)]
     Decompose(DecomposeArguments),

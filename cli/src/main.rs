@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Command::Simplify(arguments) => simplify::run(arguments),
         Command::Levels(arguments) => levels::run(arguments),
         Command::Terrain(arguments) => terrain::run(arguments),
+        Command::TerrainTiles(arguments) => terrain::tiles(arguments),
         Command::Decompose(arguments) => terrain::decompose(arguments),
         Command::Extract(arguments) => terrain::extract(arguments),
         Command::Compare(arguments) => compare::run(arguments),

@@ -200,6 +200,7 @@ impl From<rate_distortion::Error> for Failure {
             Error::NotFinite { .. } => DECIMESH_ERROR_NOT_FINITE,
             Error::Cancelled(_) => DECIMESH_ERROR_CANCELLED,
             Error::Threads(_) => DECIMESH_ERROR_THREADS,
+            Error::Tile { .. } => DECIMESH_ERROR_IO,
             Error::SampleCount { .. } | Error::Spacing { .. } | Error::Target { .. } => DECIMESH_ERROR_OPTION,
         };
         Self::new(status, error.to_string())

@@ -206,7 +206,7 @@ impl Decomposition {
     }
 
     /// The mesh with as much detail as is wanted. For vertices and ratios of fields of 2^d + 1 rows and columns
-    /// without voids, time and memory are linear in what comes out; for others that is done some twenty times. The
+    /// without voids, time and memory are linear in what comes out; for others that is done a few times. The
     /// first RMS costs a walk over all vertices; a maximum error takes n log n.
     ///
     /// With voids there is a least number of vertices, those that keep triangles off them: it is what comes out
@@ -227,7 +227,7 @@ impl Decomposition {
 
     /// The mesh with as much detail as is wanted where no sample is farther from it than `bound`: the vertices that
     /// the bound needs, filled up in the order of the decomposition. If the bound needs more than is asked for, it
-    /// has more. Some twenty times as much work as for a maximum error alone.
+    /// has more. A few times as much work as for a maximum error alone, some twenty for an RMS.
     pub fn at_within(&self, detail: Detail, bound: f64) -> Result<Approximation, Error> {
         let bound = check_error("maximum error", bound)?;
         let least = |is_enough: &dyn Fn(&Left) -> bool| {
@@ -235,11 +235,8 @@ impl Decomposition {
             Ok(self.of_set(&self.within(removed, bound)))
         };
         let few = |vertices: usize| {
-            // Fewer vertices go, the more are left: the first that are few enough are the most.
-            let fits =
-                |removed: usize| self.extract_set(&self.within(removed, bound)).places.len() <= vertices;
-            let many = last(self.removable, |removed| !fits(removed));
-            let removed = if many == 0 && fits(0) { 0 } else { (many + 1).min(self.removable) };
+            let count = |removed| self.extract_set(&self.within(removed, bound)).places.len();
+            let removed = self.fewest_removed(vertices, self.removed_for(vertices), count);
             Ok(self.of_set(&self.within(removed, bound)))
         };
         match detail {
@@ -272,16 +269,49 @@ impl Decomposition {
             let corners: usize = layout.base().iter().map(|quads| quads + 1).product();
             return (corners + self.order.len()).saturating_sub(vertices).min(self.removable);
         }
-        let fits = |removed: usize| self.extract(removed).places.len() <= vertices;
-        match fits(0) {
-            true => 0,
-            false => (last(self.removable, |removed| !fits(removed)) + 1).min(self.removable),
+        // As if each that lies in the field were a vertex of the mesh, and none were made at its edges.
+        let mut inside = 0;
+        let stays = |&&vertex: &&u32| {
+            let Site { x, y, .. } = layout.site(vertex as usize);
+            inside += usize::from(self.lattice.is_inside([x as u32, y as u32]));
+            inside <= vertices
+        };
+        let left = self.order.iter().rev().take_while(stays).count();
+        let count = |removed| self.extract(removed).places.len();
+        self.fewest_removed(vertices, self.order.len() - left, count)
+    }
+
+    /// How many vertices have to go so that a mesh has no more than so many, by `count`, which tells how many it has
+    /// then: as few as can be, or all that may.
+    fn fewest_removed(&self, vertices: usize, guess: usize, count: impl Fn(usize) -> usize) -> usize {
+        /// With each vertex that goes, about one goes: seldom more steps are taken. Then what is left is halved.
+        const STEPS: u32 = 8;
+        // More must go than `low`, and no more need to than `high`.
+        let (mut low, mut high) = (None, self.removable);
+        let mut removed = guess.min(self.removable);
+        for step in 0.. {
+            let found = count(removed);
+            if found > vertices {
+                low = Some(removed);
+            } else {
+                high = removed;
+            }
+            let first = low.map_or(0, |low| low + 1);
+            if found == vertices || first >= high {
+                break;
+            }
+            let next = (removed + found).saturating_sub(vertices);
+            removed = match step < STEPS && (first..high).contains(&next) {
+                true => next,
+                false => first + (high - first) / 2,
+            };
         }
+        high
     }
 
     /// How many vertices have to go so that the others cost no more than that.
     fn removed_for_cost(&self, limit: f64) -> Result<usize, Error> {
-        if !(limit >= 0.0) {
+        if limit.is_nan() || limit < 0.0 {
             return Err(Error::Target { what: "cost", value: limit, expected: "it must not be negative" });
         }
         let cost = |&vertex: &u32| self.costs.as_ref().map_or(1.0, |costs| f64::from(costs[vertex as usize]));

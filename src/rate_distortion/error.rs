@@ -73,6 +73,16 @@ pub enum Error {
         /// What it has to be.
         expected: &'static str,
     },
+    /// A part of a large field could not be had, or what is known of it not be kept.
+    #[error("columns from {column} on, rows from {row} on: {reason}")]
+    Tile {
+        /// The first column.
+        column: usize,
+        /// The first row.
+        row: usize,
+        /// Why.
+        reason: String,
+    },
     /// The monitor asked for the end.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

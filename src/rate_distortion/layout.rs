@@ -225,12 +225,12 @@ impl Layout {
     /// Whether the diagonal that a centre splits runs down to the right.
     fn falls(&self, Site { x, y, level }: Site) -> bool {
         let shift = self.depth - level.div_ceil(2) + 1;
-        ((x >> shift) + (y >> shift)) % 2 == 0
+        ((x >> shift) + (y >> shift)).is_multiple_of(2)
     }
 
     /// Whether a vertex of an even level halves an edge along a row.
     fn is_on_horizontal_edge(&self, Site { y, level, .. }: Site) -> bool {
-        (y >> (self.depth - level / 2)) % 2 == 0
+        (y >> (self.depth - level / 2)).is_multiple_of(2)
     }
 }
 

@@ -15,8 +15,8 @@
 //! lies in several overlapping domains is counted in each of them, and never twice.
 //!
 //! Where this departs from the paper:
-//! - Sums are held as whole numbers, in units of 2^-62 of the sum of all deltas, at least. So they stay exact through
-//!   any number of updates, and domains of equal slope are seen to be.
+//! - Deltas are rounded to whole numbers of units, which are at most 2^-61 of the sum of all. So sums of them stay
+//!   exact through any number of updates, and domains of equal slope are seen to be.
 //! - The least slope is found by a queue, not by minima over the subtrees: slopes mostly rise (domains lose
 //!   their cheapest part), so a vertex is queued by a bound from below, and again when it proves too low.
 //! - `ΔD` here is what the distortion grows by; the paper's is negative.
@@ -40,7 +40,7 @@ pub(super) fn decimate<G: Graph, E>(
     let mut domains = Domains::new(graph, deltas, |part| report(STARTING * part))?;
     let vertices = domains.decided.len();
     while domains.remove_least() {
-        if domains.removals.steps.len() % A_REPORT == 0 {
+        if domains.removals.steps.len().is_multiple_of(A_REPORT) {
             let gone = domains.removals.order.len() as f32 / vertices as f32;
             report(STARTING + (1.0 - STARTING) * gone)?;
         }
@@ -130,7 +130,7 @@ impl<'a, G: Graph> Domains<'a, G> {
                 changes[ancestor].distortion += distortion;
                 changes[ancestor].rate += 1;
             });
-            if vertex % A_REPORT == 0 {
+            if vertex.is_multiple_of(A_REPORT) {
                 report(vertex as f32 / vertices as f32)?;
             }
         }

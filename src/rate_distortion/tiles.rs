@@ -58,11 +58,11 @@ impl Source for HeightField {
 
 /// Where the slopes of tiles are kept between one walk over them and the next.
 pub trait Store: Sync {
-    /// Keeps the slopes of a tile in the place of what was kept of it.
-    fn put(&self, tile: usize, slopes: &[f32]) -> Result<(), Error>;
+    /// Keeps the slopes of a tile, as many as all tiles have, in the place of what was kept of it.
+    fn put(&self, tile: usize, slopes: &[f32]) -> std::io::Result<()>;
 
-    /// The slopes of a tile, as they were kept last.
-    fn get(&self, tile: usize) -> Result<Vec<f32>, Error>;
+    /// The slopes of a tile, as they were kept last; none if they never were.
+    fn get(&self, tile: usize) -> std::io::Result<Vec<f32>>;
 }
 
 /// A store in memory: 4 bytes a sample.
@@ -70,7 +70,7 @@ pub trait Store: Sync {
 pub struct InMemory(Mutex<Vec<Vec<f32>>>);
 
 impl Store for InMemory {
-    fn put(&self, tile: usize, slopes: &[f32]) -> Result<(), Error> {
+    fn put(&self, tile: usize, slopes: &[f32]) -> std::io::Result<()> {
         let mut tiles = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if tiles.len() <= tile {
             tiles.resize(tile + 1, Vec::new());
@@ -79,7 +79,7 @@ impl Store for InMemory {
         Ok(())
     }
 
-    fn get(&self, tile: usize) -> Result<Vec<f32>, Error> {
+    fn get(&self, tile: usize) -> std::io::Result<Vec<f32>> {
         let tiles = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         Ok(tiles.get(tile).cloned().unwrap_or_default())
     }
@@ -233,7 +233,7 @@ impl<'a> Tiles<'a> {
             let slopes =
                 solve(&self.layout, &deltas(&lattice)?, &effort, &Workers::Caller, |_| Ok::<(), Error>(()))?
                     .0;
-            self.store.put(tile, &slopes)?;
+            self.store.put(tile, &slopes).map_err(|error| self.lost(tile, &error))?;
             let owned = |row: usize, column: usize| self.owns(tile, [column, row]);
             let columns = lattice.field().columns();
             let heights = lattice.field().heights().iter().enumerate();
@@ -254,7 +254,7 @@ impl<'a> Tiles<'a> {
     fn agree(&mut self, borders: &mut Borders, monitor: &mut Monitor) -> Result<bool, Error> {
         self.rounds += 1;
         let raise = |borders: &Borders, tile: usize| {
-            let mut slopes = self.store.get(tile)?;
+            let mut slopes = self.store.get(tile).map_err(|error| self.lost(tile, &error))?;
             if slopes.is_empty() {
                 return Ok(Vec::new());
             }
@@ -266,7 +266,7 @@ impl<'a> Tiles<'a> {
             if changed {
                 slopes =
                     Flow::new(&self.layout, &slopes, &Workers::Caller).raised(&self.layout, &Workers::Caller);
-                self.store.put(tile, &slopes)?;
+                self.store.put(tile, &slopes).map_err(|error| self.lost(tile, &error))?;
             }
             Ok(self.border(tile, &slopes))
         };
@@ -279,7 +279,7 @@ impl<'a> Tiles<'a> {
     /// How many vertices there are with a slope of each class and below.
     fn count(&self, monitor: &mut Monitor) -> Result<Vec<u64>, Error> {
         let slopes = |_: &Vec<u64>, tile: usize| {
-            let slopes = self.store.get(tile)?;
+            let slopes = self.store.get(tile).map_err(|error| self.lost(tile, &error))?;
             let owned = (0..slopes.len()).filter(|&vertex| {
                 let Site { x, y, .. } = self.layout.site(vertex);
                 self.owns(tile, [x, y]) && self.is_inside(tile, [x, y])
@@ -354,7 +354,7 @@ impl<'a> Tiles<'a> {
 
     fn add(&self, tile: usize, slope: f32, block: &mut Block) -> Result<(), Error> {
         let Some(lattice) = self.lattice(tile)? else { return Ok(()) };
-        let slopes = self.store.get(tile)?;
+        let slopes = self.store.get(tile).map_err(|error| self.lost(tile, &error))?;
         let is_left = |vertex: usize| slopes[vertex] > slope || slopes[vertex] >= NEVER;
         let deltas = deltas(&lattice)?;
         let gone = deltas.iter().enumerate().filter(|&(vertex, _)| !is_left(vertex));
@@ -377,6 +377,11 @@ impl<'a> Tiles<'a> {
             .triangles
             .extend(extract.triangles.iter().map(|corners| corners.map(|corner| names[corner as usize])));
         Ok(())
+    }
+
+    fn lost(&self, tile: usize, error: &std::io::Error) -> Error {
+        let [column, row] = self.start(tile);
+        Error::Tile { column, row, reason: format!("its slopes are lost: {error}") }
     }
 
     /// The first column and row of a tile.

@@ -74,6 +74,60 @@ pub(crate) struct ExtractArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct TilesArguments {
+    /// The heights. NumPy files and raw samples may be larger than memory.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Where the tiles go: tiles.json, and a directory a level.
+    #[arg(value_name = "OUTDIR")]
+    pub(crate) directory: PathBuf,
+    #[command(flatten)]
+    pub(crate) detail: CountArguments,
+    /// The side of a tile of the finest level, in samples: a power of two.
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub(crate) tile: usize,
+    /// How many levels to make; without it, as many as lead to one tile.
+    #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))]
+    pub(crate) levels: Option<usize>,
+    /// The format of the tiles, by its extension.
+    #[arg(long, value_name = "EXTENSION", default_value = "glb", value_parser = super::tiles::format)]
+    pub(crate) format: String,
+    #[command(flatten)]
+    pub(crate) heights: HeightArguments,
+    /// Threads to use; 0: all that the machine has. The result does not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+    #[command(flatten)]
+    pub(crate) common: CommonArguments,
+}
+
+/// How much the finest level has: exactly one of these.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub(crate) struct CountArguments {
+    /// About this many vertices, and no more but for the corners of tiles, for the edges of the field, and for
+    /// voids.
+    #[arg(long, value_name = "N")]
+    vertices: Option<usize>,
+    /// This fraction of the samples that are not void, above 0 and at most 1.
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    ratio: Option<f64>,
+}
+
+impl CountArguments {
+    /// How many vertices that is of so many samples.
+    pub(crate) fn vertices(&self, samples: usize) -> Result<usize, Failure> {
+        let ratio = self.ratio.unwrap_or(1.0);
+        if !(ratio > 0.0 && ratio <= 1.0) {
+            return Err(Failure::Options(format!(
+                "ratio {ratio} is not allowed: it must be above 0 and at most 1"
+            )));
+        }
+        Ok(self.vertices.unwrap_or((ratio * samples as f64).round() as usize))
+    }
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct CommonArguments {
     /// Write the text variant of formats that have one.
     #[arg(long)]
@@ -154,7 +208,7 @@ impl HeightArguments {
         Ok(HeightField::read(path, &self.options())?)
     }
 
-    fn options(&self) -> HeightOptions {
+    pub(crate) fn options(&self) -> HeightOptions {
         HeightOptions {
             format: None,
             pixels: if self.terrain_rgb { Pixels::TerrainRgb } else { Pixels::Grey },

@@ -5,19 +5,19 @@ mod decompose;
 mod extract;
 mod plot;
 mod report;
+mod tiles;
 mod tin;
 
 use std::path::Path;
 use std::time::Instant;
 
 use decimesh::Mesh;
-use decimesh::rate_distortion::{
-    Approximation, Decomposition, DecompositionOptions, Error, HeightFileError, VerticalError,
-};
+use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, Error, HeightFileError};
 
-pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments};
+pub(crate) use arguments::{DecomposeArguments, ExtractArguments, TerrainArguments, TilesArguments};
 pub(crate) use decompose::run as decompose;
 pub(crate) use extract::run as extract;
+pub(crate) use tiles::run as tiles;
 
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
@@ -25,7 +25,7 @@ use crate::files::{check_directory, check_output, file_name, write};
 use crate::progress::Progress;
 use crate::report::{print, write_json};
 use arguments::CommonArguments;
-use report::{MeasuredError, TerrainReport, summary};
+use report::{TerrainReport, summary};
 
 pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
     let TerrainArguments { input, output, heights, plot, threads, common, .. } = arguments;
@@ -47,18 +47,18 @@ pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
     let (result, peak_bytes) = peak_bytes(|| -> Result<_, Failure> {
         let decomposition =
             progress.during("decomposing", |monitor| Decomposition::new(field, &options, monitor))?;
-        let terrain = match arguments.tin {
+        let taken = match arguments.tin {
             true => progress.during("setting free", |monitor| {
-                tin::terrain(&decomposition, detail, arguments.least_squares, monitor)
+                tin::take(&decomposition, detail, arguments.least_squares, monitor)
             })?,
-            false => Terrain::of(&decomposition, decomposition.at(detail)?),
+            false => decomposition.at(detail)?,
         };
-        Ok((decomposition, terrain))
+        Ok((decomposition, taken))
     });
     let seconds = begin.elapsed().as_secs_f64();
-    let (decomposition, terrain) = result?;
+    let (decomposition, taken) = result?;
 
-    let seconds_write = write_mesh(&terrain.mesh, output, common)?;
+    let seconds_write = write_mesh(&taken.mesh, output, common)?;
     if let Some(path) = plot {
         let name = file_name(input);
         progress.during("plotting", |monitor| plot::write(&decomposition, &name, path, monitor))?;
@@ -68,41 +68,9 @@ pub(crate) fn run(arguments: &TerrainArguments) -> Result<(), Failure> {
         seconds_read: Some(seconds_read),
         seconds_write,
         peak_bytes,
-        ..terrain.report(&decomposition)
+        ..TerrainReport::of(&decomposition, &taken)
     };
-    tell(&report, common)
-}
-
-/// A mesh that was made, and how good it is.
-struct Terrain {
-    mesh: Mesh,
-    error: VerticalError,
-    certified_gap: Option<f64>,
-}
-
-impl Terrain {
-    fn of(decomposition: &Decomposition, taken: Approximation) -> Self {
-        let error = decomposition.measure(&taken);
-        Self { error, certified_gap: Some(taken.certified_gap), mesh: taken.mesh }
-    }
-
-    /// What is known without a clock.
-    fn report(&self, decomposition: &Decomposition) -> TerrainReport {
-        let field = decomposition.field();
-        TerrainReport {
-            columns: field.columns(),
-            rows: field.rows(),
-            samples: decomposition.samples(),
-            vertices_out: self.mesh.positions().len(),
-            triangles_out: self.mesh.triangles().len(),
-            error: MeasuredError::new(field, self.error),
-            certified_gap_db: self.certified_gap,
-            seconds: 0.0,
-            seconds_read: None,
-            seconds_write: 0.0,
-            peak_bytes: 0,
-        }
-    }
+    tell(&report, detail, common)
 }
 
 /// Writes the mesh, and answers how many seconds that took.
@@ -112,7 +80,9 @@ fn write_mesh(mesh: &Mesh, output: &Path, common: &CommonArguments) -> Result<f6
     Ok(begin.elapsed().as_secs_f64())
 }
 
-fn tell(report: &TerrainReport, common: &CommonArguments) -> Result<(), Failure> {
+/// Says what became of a wish, where and how that is asked for.
+fn tell(report: &TerrainReport, detail: Detail, common: &CommonArguments) -> Result<(), Failure> {
+    report.warn_if_more(detail);
     if let Some(path) = &common.report {
         write_json(path, report)?;
     }

@@ -1,6 +1,6 @@
 //! What is said about terrain.
 
-use decimesh::rate_distortion::{HeightField, VerticalError};
+use decimesh::rate_distortion::{Approximation, Decomposition, Detail, HeightField};
 use serde::Serialize;
 
 use crate::report::{grouped, significant};
@@ -14,12 +14,15 @@ pub(crate) struct TerrainReport {
     pub(crate) samples: usize,
     pub(crate) vertices_out: usize,
     pub(crate) triangles_out: usize,
-    #[serde(flatten)]
-    pub(crate) error: MeasuredError,
+    /// Root mean square and maximum of the vertical distances of all samples from the mesh, as measured.
+    pub(crate) rms: f64,
+    pub(crate) max: f64,
+    /// Of the range of heights and the RMS.
+    pub(crate) psnr_db: f64,
     /// How far the squared error can be above that of the best conforming mesh of as many vertices; null for
     /// --tin, whose meshes are others.
-    pub(crate) certified_gap_db: Option<f64>,
-    /// Of decomposing, or of reading a hierarchy, of taking the mesh from it, and of measuring the error.
+    pub(crate) certified_gap_db: f64,
+    /// Of decomposing, or of reading a hierarchy, and of taking the mesh from it.
     pub(crate) seconds: f64,
     /// Of reading the heights.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,15 +30,6 @@ pub(crate) struct TerrainReport {
     pub(crate) seconds_write: f64,
     /// The highest point of what `seconds` counts above what was allocated when it began.
     pub(crate) peak_bytes: usize,
-}
-
-/// Vertical distances from the samples to the mesh, all of them measured.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(crate) struct MeasuredError {
-    pub(crate) rms: f64,
-    pub(crate) max: f64,
-    /// Of the range of heights and the RMS.
-    pub(crate) psnr_db: f64,
 }
 
 /// What `decompose --report` writes.
@@ -53,10 +47,43 @@ pub(crate) struct DecomposeReport {
     pub(crate) peak_bytes: usize,
 }
 
-impl MeasuredError {
-    pub(crate) fn new(field: &HeightField, error: VerticalError) -> Self {
+impl TerrainReport {
+    /// What can be said without a clock.
+    pub(crate) fn of(decomposition: &Decomposition, taken: &Approximation) -> Self {
+        let field = decomposition.field();
+        let error = decomposition.measure(taken);
         let rms = error.rms();
-        Self { rms, max: error.maximum, psnr_db: psnr(field, rms) }
+        Self {
+            columns: field.columns(),
+            rows: field.rows(),
+            samples: decomposition.samples(),
+            vertices_out: taken.mesh.positions().len(),
+            triangles_out: taken.mesh.triangles().len(),
+            rms,
+            max: error.maximum,
+            psnr_db: psnr(field, rms),
+            certified_gap_db: taken.certified_gap,
+            seconds: 0.0,
+            seconds_read: None,
+            seconds_write: 0.0,
+            peak_bytes: 0,
+        }
+    }
+
+    /// Tells the user, on the error stream, where there are more vertices than asked for.
+    pub(crate) fn warn_if_more(&self, detail: Detail) {
+        let wanted = match detail {
+            Detail::Vertices(vertices) => vertices,
+            Detail::Ratio(ratio) => (ratio * self.samples as f64).round() as usize,
+            _ => return,
+        };
+        if self.vertices_out > wanted {
+            eprintln!(
+                "decimesh: warning: the mesh has {} vertices, more than asked for: with fewer, triangles would lie \
+                 over voids, or the corners would not be there",
+                grouped(self.vertices_out)
+            );
+        }
     }
 }
 
@@ -67,17 +94,17 @@ pub(crate) fn psnr(field: &HeightField, rms: f64) -> f64 {
 }
 
 pub(crate) fn summary(report: &TerrainReport) -> String {
-    let TerrainReport { samples, vertices_out, triangles_out, error, seconds, .. } = *report;
-    let gap = report.certified_gap_db.map_or_else(String::new, |gap| {
-        format!(", at most {} dB above the best conforming mesh", significant(gap))
-    });
+    let TerrainReport { samples, vertices_out, triangles_out, rms, max, psnr_db, seconds, .. } = *report;
+    let gap = match report.certified_gap_db {
+        gap if gap.is_finite() => format!(", at most {} dB above the best conforming mesh", significant(gap)),
+        _ => String::new(),
+    };
     format!(
-        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({:.1} dB){gap}\n",
+        "{} samples -> {} vertices, {} triangles in {seconds:.3} s, RMS error {}, maximum {} ({psnr_db:.1} dB){gap}\n",
         grouped(samples),
         grouped(vertices_out),
         grouped(triangles_out),
-        significant(error.rms),
-        significant(error.max),
-        error.psnr_db,
+        significant(rms),
+        significant(max),
     )
 }

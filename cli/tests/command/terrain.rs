@@ -127,6 +127,9 @@ fn voids_have_no_triangles() {
     let samples = count(&bench.json("report.json"), "samples");
     assert!(samples < COLUMNS * ROWS);
     assert!(bench.read("out.ply").positions().iter().all(|&[_, _, z]| z != void));
+    let outcome = bench.run(&format!("terrain hills.npy out.ply --vertices 5 --no-data {void:?} --quiet"));
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(0), ""));
+    assert!(outcome.stderr.contains("more than asked for: with fewer, triangles would lie over voids"));
 }
 
 #[test]
@@ -213,4 +216,58 @@ fn failures_have_their_codes_and_change_nothing() {
     bench.run_badly("extract missing.drd out.ply --ratio 1", 3, "cannot read missing.drd");
     bench.run_well("decompose hills.npy hills.drd");
     bench.run_badly("extract hills.drd out.ply --rms -2", 5, "RMS -2 is not allowed");
+}
+
+#[test]
+fn tiles_make_a_pyramid_without_cracks() {
+    let bench = bench();
+    bench.run_well(
+        "terrain-tiles hills.npy tiles --ratio 0.3 --tile 16 --format ply --spacing 2 --report report.json",
+    );
+    let index = bench.json("tiles/tiles.json");
+    let levels = index["levels"].as_array().unwrap();
+    assert_eq!(levels.len(), 4);
+    let tiles = |level: usize| levels[level]["tiles"].as_array().unwrap();
+    assert_eq!((0..4).map(|level| tiles(level).len()).collect::<Vec<_>>(), [15, 6, 2, 1]);
+    let mut finer = 0.0;
+    for (level, record) in levels.iter().enumerate() {
+        assert!(number(record, "rms") >= finer && number(record, "max") > number(record, "rms"));
+        finer = number(record, "rms");
+        // All triangles of a level together are one surface over the whole field, whose rim is that of the field.
+        let mut edges = std::collections::HashMap::new();
+        let mut area = 0.0;
+        for tile in tiles(level) {
+            let mesh = bench.read(&format!("tiles/{}", tile["file"].as_str().unwrap()));
+            assert_eq!(count(tile, "triangles"), mesh.triangles().len());
+            for triangle in mesh.triangles() {
+                let corners = triangle.map(|vertex| mesh.positions()[vertex as usize]);
+                let [a, b, c] = corners;
+                area += f64::from((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
+                let key = |corner: [f32; 3]| corner.map(f32::to_bits);
+                for (from, to) in [(a, b), (b, c), (c, a)] {
+                    *edges.entry((key(from), key(to))).or_insert(0) += 1;
+                }
+            }
+        }
+        assert_eq!(area, (4 * (COLUMNS - 1) * (ROWS - 1)) as f64);
+        let (right, top) = (2.0 * (COLUMNS - 1) as f32, 2.0 * (ROWS - 1) as f32);
+        for (&(from, to), &times) in &edges {
+            assert_eq!(times, 1);
+            let [from_x, from_y, _] = from.map(f32::from_bits);
+            let [to_x, to_y, _] = to.map(f32::from_bits);
+            let is_rim = (from_x == to_x && (from_x == 0.0 || from_x == right))
+                || (from_y == to_y && (from_y == 0.0 || from_y == top));
+            assert!(is_rim || edges.contains_key(&(to, from)), "a crack");
+        }
+    }
+    // Threads, and whether the samples lie open in the file, change nothing.
+    bench.run_well(
+        "terrain-tiles hills.npy other --ratio 0.3 --tile 16 --format ply --spacing 2 --threads 3 --levels 1",
+    );
+    assert_eq!(bench.bytes("other/0/1-2.ply"), bench.bytes("tiles/0/1-2.ply"));
+    assert_eq!(bench.json("other/tiles.json")["levels"].as_array().unwrap().len(), 1);
+    bench.run_badly("terrain-tiles hills.npy other --ratio 0.3 --tile 17", 5, "must be a power of two");
+    bench.run_badly("terrain-tiles hills.npy other --ratio 0", 5, "above 0 and at most 1");
+    bench.run_badly("terrain-tiles hills.npy other --ratio 1 --format xyz", 2, "names no format");
+    bench.run_badly("terrain-tiles missing.npy other --ratio 1", 3, "cannot read missing.npy");
 }

@@ -22,12 +22,14 @@ mod raw;
 mod samples;
 mod tiff;
 mod tiff_directory;
+mod windows;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 pub use samples::{ByteOrder, SampleType};
+pub use windows::HeightFile;
 
 use super::source::Source;
 use super::{FileError, ReadError};
@@ -187,11 +189,11 @@ fn read_from(
         HeightFormat::Npy => npy::read(&mut Source::new(reader, length)),
         HeightFormat::Raw => raw::read(&mut Source::new(reader, length), options.raw, sample),
     }?;
-    heights(grid, options)
+    heights(grid, options, [0, 0])
 }
 
-/// Turns samples into heights.
-fn heights(grid: Grid, options: &HeightOptions) -> Result<Heights, ReadError> {
+/// Turns samples, the first of which lies at `start`, into heights.
+fn heights(grid: Grid, options: &HeightOptions, start: [usize; 2]) -> Result<Heights, ReadError> {
     let Grid { columns, rows, samples: mut heights, no_data, spacing } = grid;
     let voids = [options.no_data, no_data];
     let is_void = |sample: f32| {
@@ -206,7 +208,7 @@ fn heights(grid: Grid, options: &HeightOptions) -> Result<Heights, ReadError> {
         }
         *height = (f64::from(sample) * scale + offset) as f32;
         if !height.is_finite() {
-            let place = format!("column {}, row {}", index % columns, index / columns);
+            let place = format!("column {}, row {}", start[0] + index % columns, start[1] + index / columns);
             let problem = if sample.is_finite() {
                 format!("{sample} times {scale} plus {offset} is no height")
             } else {

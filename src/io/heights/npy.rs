@@ -5,14 +5,20 @@
 
 use super::super::ReadError;
 use super::super::source::Source;
-use super::Grid;
 use super::samples::{ByteOrder, SampleType, read_rest};
+use super::{Grid, RawLayout};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// NumPy itself refuses longer ones.
 const LONGEST_HEADER: usize = 10_000;
 
 pub(super) fn read(source: &mut Source) -> Result<Grid, ReadError> {
+    let (layout, sample) = header(source)?;
+    read_rest(source, [layout.columns, layout.rows], sample, layout.byte_order)
+}
+
+/// How the samples lie that follow, and their type.
+pub(super) fn header(source: &mut Source) -> Result<(RawLayout, SampleType), ReadError> {
     if source.peek(MAGIC.len())? != MAGIC {
         return Err(source.error_here("this is no NumPy file"));
     }
@@ -31,7 +37,8 @@ pub(super) fn read(source: &mut Source) -> Result<Grid, ReadError> {
         Problem::Malformed(problem) => source.error_here(problem),
         Problem::Unsupported(what) => ReadError::Unsupported(what),
     })?;
-    read_rest(source, [header.columns, header.rows], header.sample, header.order)
+    let Header { columns, rows, sample, order } = header;
+    Ok((RawLayout { columns, rows, sample: Some(sample), byte_order: order }, sample))
 }
 
 struct Header {

@@ -49,13 +49,13 @@ pub(super) fn collapse_to(
         changed: Vec::new(),
     };
     for vertex in 0..slots as u32 {
-        if vertex as usize % STRIDE == 0 {
+        if (vertex as usize).is_multiple_of(STRIDE) {
             monitor.report(report(0.0))?;
         }
         collapses.look_at(vertex);
     }
     for taken in 0..excess {
-        if taken % STRIDE == 0 {
+        if taken.is_multiple_of(STRIDE) {
             monitor.report(report(taken as f32 / excess as f32))?;
         }
         if !collapses.take_cheapest() {

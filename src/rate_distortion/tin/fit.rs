@@ -10,8 +10,12 @@ use super::triangulation::Triangulation;
 use crate::monitor::{Cancelled, Monitor};
 use crate::rate_distortion::raster::twice_area;
 
-/// More steps than are ever needed: a matrix of hats is well conditioned, for triangles of any shape.
+/// More steps than are ever needed: a matrix of hats is well conditioned, for triangles of any shape. So that it is
+/// with samples of weight 0 too, ...
 const MOST_STEPS: usize = 100;
+/// ... each vertex holds on to its height as if with this part of the weight of the samples around. What that costs
+/// is a part as small of the error that there was; and heights that the samples do not decide stay where they are.
+const HOLD: f64 = 1e-5;
 /// When the residual has become so small, by its square, heights change less than is worth a step.
 const TOLERANCE: f64 = 1e-10;
 
@@ -27,7 +31,7 @@ struct Products {
 /// The normal equations for what is added to the heights.
 struct Equations {
     triangles: Vec<Products>,
-    /// The weights of the vertices' own samples.
+    /// The weights of the vertices' own samples, and of what holds them.
     own: Vec<f64>,
     diagonal: Vec<f64>,
     right: Vec<f64>,
@@ -54,9 +58,10 @@ impl Equations {
             let reciprocal = 1.0 / twice_area([a, b, c]) as f64;
             let mut products = Products { names, squares: [0.0; 3], mixed: [0.0; 3] };
             samples.visit(corners, rim, |here, height, weight| {
-                let second = twice_area([here, c, a]) as f64 * reciprocal;
-                let third = twice_area([here, a, b]) as f64 * reciprocal;
-                let hats = [1.0 - second - third, second, third];
+                // Each from whole numbers, so that a hat is 0 where it ends: a trace of one would decide a height
+                // that nothing else does.
+                let hats = [[here, b, c], [here, c, a], [here, a, b]]
+                    .map(|part| twice_area(part) as f64 * reciprocal);
                 let surface: f64 = hats[0] * heights[0] + hats[1] * heights[1] + hats[2] * heights[2];
                 for k in 0..3 {
                     products.squares[k] += weight * hats[k] * hats[k];
@@ -66,6 +71,11 @@ impl Equations {
             });
             (0..3).for_each(|k| diagonal[names[k]] += products.squares[k]);
             triangles.push(products);
+        }
+        for (diagonal, own) in diagonal.iter_mut().zip(&mut own) {
+            let hold = *diagonal * HOLD;
+            *own += hold;
+            *diagonal += hold;
         }
         Self { triangles, own, diagonal, right }
     }
@@ -90,8 +100,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Gives the vertices the heights with the least squared error, to rounding. Vertices that no sample of any weight
-/// depends on keep theirs. `report` is told which part is done.
+/// Gives the vertices the heights with the least squared error, but for a hundred-thousandth of what it was. `report` is told which part is done.
 pub(super) fn fit(
     mesh: &mut Triangulation,
     samples: &Samples,

@@ -45,7 +45,7 @@ pub(super) fn settle_all(
     let mut edges = Edges::default();
     let slots = surface.mesh.triangle_slots();
     for triangle in 0..slots {
-        if triangle % STRIDE == 0 {
+        if triangle.is_multiple_of(STRIDE) {
             monitor.report(report(triangle as f32 / slots as f32))?;
         }
         if surface.mesh.has_triangle(triangle) {

@@ -81,8 +81,9 @@ impl Tin {
 /// The error is never above that of the triangulation with as many vertices or fewer; where a fit does not lower
 /// it in the precision of the heights, there is none.
 ///
-/// About linear in the samples covered, and `n log n` in the vertices.
-pub fn reduce(
+/// There may be fewer than 2^30 triangles to begin with. About linear in the samples covered, and `n log n` in the
+/// vertices.
+pub(crate) fn reduce(
     field: &HeightField,
     vertices: &[[u32; 2]],
     triangles: &[[u32; 3]],

@@ -28,7 +28,7 @@ pub(super) fn improve(
     let mut changed = vec![true; slots as usize];
     for round in 0..ROUNDS {
         for vertex in 0..slots {
-            if vertex % STRIDE == 0 {
+            if vertex.is_multiple_of(STRIDE) {
                 monitor.report(report((round as f32 + vertex as f32 / slots as f32) / ROUNDS as f32))?;
             }
             if !std::mem::replace(&mut changed[vertex as usize], false) || !surface.mesh.has_vertex(vertex) {

@@ -90,7 +90,7 @@ pub(super) fn next(corner: u32) -> u32 {
 /// The corner before in the same triangle.
 #[inline]
 pub(super) fn previous(corner: u32) -> u32 {
-    if corner % 4 == 0 { corner + 2 } else { corner - 1 }
+    if corner.is_multiple_of(4) { corner + 2 } else { corner - 1 }
 }
 
 impl Triangulation {
