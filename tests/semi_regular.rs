@@ -249,7 +249,7 @@ proptest! {
         let complex = BaseComplex::new(8, CUBE.to_vec()).unwrap();
         let surface = SemiRegularMesh::new(complex, 1, heights).unwrap();
         let edges = edges(&surface);
-        let mut parents = vec![0u32; 26];
+        let mut parents = [0u32; 26];
         for quad in 0..6 {
             let centre = surface.vertex(quad, [1, 1]);
             for place in [[1, 0], [2, 1], [1, 2], [0, 1]] {
@@ -311,7 +311,9 @@ fn what_cannot_be_a_surface_is_refused() {
     assert_eq!(flat(0), SemiRegularError::Depth { depth: 0, quads: 6, limit: 13 });
     assert_eq!(flat(14), SemiRegularError::Depth { depth: 14, quads: 6, limit: 13 });
     assert_eq!(flat(u32::MAX), SemiRegularError::Depth { depth: u32::MAX, quads: 6, limit: 13 });
-    assert!(2 * 6 << (2 * 13) <= Mesh::MAX_TRIANGLES && 2 * 6 << (2 * 14) > Mesh::MAX_TRIANGLES);
+    // 12 times 4^13 triangles can be held, 12 times 4^14 cannot.
+    let triangles = |depth: u32| 12 << (2 * depth);
+    assert!((triangles(13)..triangles(14)).contains(&Mesh::MAX_TRIANGLES));
     let new = |positions| SemiRegularMesh::new(complex(), 1, positions).unwrap_err();
     assert_eq!(new(vec![[0.0; 3]; 25]), SemiRegularError::PositionCount { count: 25, vertices: 26 });
     let mut positions = vec![[0.0; 3]; 26];
