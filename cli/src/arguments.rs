@@ -59,6 +59,9 @@ pub(crate) enum Command {
     /// Take a level out of a progressive file.
     #[command(after_help = EXIT_CODES)]
     Play(PlayArguments),
+    /// Make a surface of subdivided quads from a mesh, and decimate it if asked to.
+    #[command(after_help = EXIT_CODES)]
+    Remesh(RemeshArguments),
     /// Say what is in a file.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArguments),
@@ -347,6 +350,45 @@ pub(crate) struct PlayedLevel {
     /// The level of this number, as `levels` counts them; 0 is the finest.
     #[arg(long, value_name = "K")]
     pub(crate) level: Option<usize>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RemeshArguments {
+    /// The mesh to remesh: an oriented manifold, once vertices of the same position are merged.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Where the result goes; its extension says in what format.
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// How often the quads of the base are halved: 4^D squares each.
+    #[arg(long, value_name = "D")]
+    pub(crate) depth: u32,
+    /// How many quads the base shall have, about.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 400,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..)
+    )]
+    pub(crate) base_quads: usize,
+    /// Write a decimated mesh of this fraction of the remesh's vertices, above 0 and at most 1.
+    #[arg(long, value_name = "R", allow_hyphen_values = true, conflicts_with = "vertices")]
+    pub(crate) ratio: Option<f64>,
+    /// Write a decimated mesh of this many vertices, or as few as the base has.
+    #[arg(long, value_name = "N")]
+    pub(crate) vertices: Option<usize>,
+    /// Write the text variant of formats that have one.
+    #[arg(long)]
+    pub(crate) ascii: bool,
+    /// Write what happened, as JSON, to this file.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Threads to use; 0: all that the machine has. The result does not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+    /// Print nothing but warnings and errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ use decimesh::deviation::DeviationError;
 use decimesh::hqms::SimplifyError;
 use decimesh::io::FileError;
 use decimesh::mesh::Violation;
+use decimesh::rate_distortion::{RemeshError, SemiRegularError};
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
@@ -55,6 +56,26 @@ impl From<DeviationError> for Failure {
     fn from(error: DeviationError) -> Self {
         match error {
             DeviationError::Empty { .. } | DeviationError::Threads(_) => Self::Options(error.to_string()),
+            other => Self::Unexpected(other.to_string()),
+        }
+    }
+}
+
+impl From<RemeshError> for Failure {
+    fn from(error: RemeshError) -> Self {
+        match error {
+            RemeshError::Simplify(error) => error.into(),
+            RemeshError::Cancelled(_) => Self::Unexpected(error.to_string()),
+            // A mesh that is no surface, or an option that does not suit it.
+            other => Self::Options(other.to_string()),
+        }
+    }
+}
+
+impl From<SemiRegularError> for Failure {
+    fn from(error: SemiRegularError) -> Self {
+        match error {
+            SemiRegularError::Threads(_) => Self::Options(error.to_string()),
             other => Self::Unexpected(other.to_string()),
         }
     }

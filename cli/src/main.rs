@@ -11,6 +11,7 @@ mod info;
 mod levels;
 mod play;
 mod progress;
+mod remesh;
 mod render;
 mod report;
 mod simplify;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Extract(arguments) => terrain::extract(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Play(arguments) => play::run(arguments),
+        Command::Remesh(arguments) => remesh::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Demo(arguments) => demo::run(arguments),
     };

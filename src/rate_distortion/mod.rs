@@ -50,7 +50,9 @@ mod raster;
 mod rate;
 #[cfg(feature = "io")]
 mod read;
+mod remesh;
 mod removals;
+mod semi_regular;
 pub mod tiles;
 pub mod tin;
 pub mod vertical;
@@ -68,4 +70,8 @@ pub use error::Error;
 pub use height_field::HeightField;
 #[cfg(feature = "io")]
 pub use read::HeightFileError;
+pub use remesh::{RemeshError, RemeshOptions, Remeshed, remesh};
+pub use semi_regular::{
+    BaseComplex, SemiRegularError, SemiRegularMesh, SurfaceApproximation, SurfaceDecomposition,
+};
 pub use vertical::VerticalError;

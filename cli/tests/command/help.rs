@@ -2,8 +2,8 @@
 
 use crate::workbench::Workbench;
 
-const SUBCOMMANDS: [&str; 9] =
-    ["simplify", "levels", "play", "terrain", "decompose", "extract", "compare", "info", "demo"];
+const SUBCOMMANDS: [&str; 10] =
+    ["simplify", "levels", "play", "terrain", "decompose", "extract", "remesh", "compare", "info", "demo"];
 
 #[test]
 fn help_names_all_subcommands() {

@@ -6,6 +6,7 @@ mod help;
 mod info;
 mod levels;
 mod play;
+mod remesh;
 mod simplify;
 mod terrain;
 mod workbench;
