@@ -383,6 +383,9 @@ pub(crate) struct RemeshArguments {
     /// Write what happened, as JSON, to this file.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
+    /// Draw the input, the remesh and what is written side by side, +y up and seen from +z, as a PNG.
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) picture: Option<PathBuf>,
     /// Threads to use; 0: all that the machine has. The result does not depend on it.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,

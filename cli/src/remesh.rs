@@ -1,5 +1,6 @@
 //! `decimesh remesh`: a semi-regular surface from any manifold mesh, whole or decimated.
 
+use std::path::Path;
 use std::time::Instant;
 
 use decimesh::Mesh;
@@ -12,6 +13,7 @@ use crate::arguments::RemeshArguments;
 use crate::failure::Failure;
 use crate::files::{check_directory, check_output, read, write};
 use crate::progress::Progress;
+use crate::render::{self, Exhibit};
 use crate::report::{self, grouped, percent};
 
 pub(crate) fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
@@ -23,7 +25,9 @@ pub(crate) fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     });
     let ratio = ratio.transpose()?;
     check_output(output)?;
-    arguments.report.as_deref().map_or(Ok(()), check_directory)?;
+    for path in arguments.report.iter().chain(&arguments.picture) {
+        check_directory(path)?;
+    }
 
     let original = read(input, Some(Weld::Exact))?;
     let options = RemeshOptions { base_quads, threads, ..RemeshOptions::new(depth) };
@@ -53,11 +57,14 @@ pub(crate) fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
             Ok::<_, Failure>((left.mesh, report))
         })
         .transpose()?;
-    let (mesh, decimation) = match decimated {
-        Some((mesh, report)) => (mesh, Some(report)),
-        None => (full, None),
-    };
-    write(&mesh, output, arguments.ascii)?;
+    let (decimated, decimation) = decimated.unzip();
+    let mesh = decimated.as_ref().unwrap_or(&full);
+    write(mesh, output, arguments.ascii)?;
+    if let Some(path) = &arguments.picture {
+        let meshes = [(&original, "the input"), (&full, "remeshed"), (mesh, "decimated")];
+        let shown = if decimation.is_some() { &meshes[..] } else { &meshes[..2] };
+        draw(shown, path, &progress)?;
+    }
 
     let report = RemeshReport {
         triangles_in: original.triangles().len(),
@@ -78,9 +85,37 @@ pub(crate) fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
         report::write_json(path, &report)?;
     }
     if !arguments.quiet {
-        report::print(&report.text(&mesh))?;
+        report::print(&report.text(mesh))?;
     }
     Ok(())
+}
+
+/// Pixels across.
+const WIDTH: usize = 1500;
+
+fn draw(meshes: &[(&Mesh, &str)], path: &Path, progress: &Progress) -> Result<(), Failure> {
+    let turned: Vec<Mesh> = meshes.iter().map(|(mesh, _)| upright(mesh)).collect::<Result<_, _>>()?;
+    let exhibits: Vec<Exhibit> = turned
+        .iter()
+        .zip(meshes)
+        .map(|(mesh, (_, subtitle))| Exhibit {
+            mesh,
+            title: format!("{} triangles", grouped(mesh.triangles().len())),
+            subtitle: (*subtitle).to_owned(),
+        })
+        .collect();
+    let picture = progress
+        .during("drawing", |monitor| render::draw(&exhibits, WIDTH, monitor))
+        .map_err(|error| Failure::Unexpected(error.to_string()))?;
+    let png = picture.png().map_err(|error| Failure::Unexpected(error.to_string()))?;
+    report::write_atomically(path, &png)
+}
+
+/// The same mesh with +x up, as pictures have it, where it has +y.
+fn upright(mesh: &Mesh) -> Result<Mesh, Failure> {
+    let turned = mesh.positions().iter().map(|&[x, y, z]| [y, -x, z]);
+    Mesh::new(turned.collect(), mesh.triangles().to_vec())
+        .map_err(|error| Failure::Unexpected(error.to_string()))
 }
 
 /// What `remesh --report` writes. Distances are between the input and the remesh at full resolution, two-sided, in

@@ -50,6 +50,19 @@ fn a_decimated_remesh_has_as_many_vertices_as_asked_for() {
 }
 
 #[test]
+fn a_picture_shows_the_input_and_what_becomes_of_it() {
+    let bench = Workbench::with("ball.ply", &ball(12, 16));
+    let width = |picture: &str| u32::from_be_bytes(bench.bytes(picture)[16..20].try_into().unwrap());
+    bench.run_well(
+        "remesh ball.ply out.ply --depth 2 --base-quads 30 --ratio 0.3 --picture three.png --quiet",
+    );
+    bench.run_well("remesh ball.ply out.ply --depth 2 --base-quads 30 --picture two.png --quiet");
+    assert!(bench.bytes("three.png").starts_with(b"\x89PNG") && width("three.png") == width("two.png"));
+    assert_ne!(bench.bytes("three.png"), bench.bytes("two.png"));
+    bench.run_badly("remesh ball.ply out.ply --depth 2 --picture no/a.png", 4, "no/a.png");
+}
+
+#[test]
 fn failures_have_their_codes_and_change_nothing() {
     let bench = Workbench::with("sheet.ply", &sheet(4, 0.0));
     bench.run_badly("remesh sheet.ply out.ply", 2, "--depth");
