@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "shapes.hpp"
 
 using decimesh::Detail;
 using decimesh::Hierarchy;
@@ -178,6 +179,31 @@ TEST_CASE("hierarchy: a file holds all of it") {
     CHECK(are_same(one.mesh.indices(), other.mesh.indices()));
     std::filesystem::remove(file);
     CHECK_THROWS_AS(Hierarchy::read(path), decimesh::Error);
+}
+
+TEST_CASE("hierarchy: surfaces are remeshed and decomposed") {
+    const decimesh::Mesh stone = shapes::stone(24, 16).mesh();
+    const Hierarchy hierarchy = Hierarchy::remesh(stone, 3, 40);
+    const Taken all = hierarchy.at(Detail::ratio(1));
+    CHECK(all.mesh.vertex_count() == hierarchy.samples());
+    CHECK(all.mesh.statistics().is_closed == stone.statistics().is_closed);
+    CHECK(all.rms == 0);
+    const Taken some = hierarchy.at(Detail::vertices(300));
+    CHECK(some.mesh.vertex_count() == 300);
+    CHECK(some.mesh.statistics().euler_characteristic == stone.statistics().euler_characteristic);
+    CHECK(some.mesh.statistics().is_oriented_manifold);
+    CHECK(some.rms > 0);
+    CHECK(std::isnan(some.max_error));
+    CHECK(hierarchy.at(Detail::rms(some.rms * 1.001)).mesh.vertex_count() <= 300);
+    for (const Detail &refused : {Detail::ratio(0), Detail::rms(-1), Detail::max_error(1)}) {
+        CHECK_THROWS_AS(hierarchy.at(refused), decimesh::Error);
+    }
+    CHECK_THROWS_AS(hierarchy.at(Detail::ratio(1), 0.5), decimesh::Error);
+    CHECK_THROWS_AS(hierarchy.tin(100), decimesh::Error);
+    CHECK_THROWS_AS(hierarchy.write("surface.drd"), decimesh::Error);
+    CHECK_THROWS_AS(Hierarchy::remesh(stone, 0), decimesh::Error);
+    CHECK_THROWS_AS(Hierarchy::remesh(stone, 3, 0), decimesh::Error);
+    CHECK_THROWS_AS(Hierarchy::remesh(decimesh::Mesh(), 3), decimesh::Error);
 }
 
 TEST_CASE("hierarchy: progress ends it") {

@@ -770,23 +770,28 @@ private:
 struct Taken {
     Mesh mesh;               ///< east, north, up; with texture coordinates
     double rms;              ///< root of the mean squared vertical error of all samples
-    double max_error;        ///< largest vertical error of a sample
+    double max_error;        ///< largest vertical error of a sample; NaN for a surface
     double certified_gap;    ///< decibels that the squared error can be above the least of as many vertices
 };
 
-/// Heights over a grid, decomposed: all rates from one run. Move-only.
+/// Heights over a grid, or a semi-regular surface, decomposed: all rates from one run. Move-only.
 class Hierarchy {
 public:
     /// Decomposes `columns` times as many rows of heights as there are, the northernmost row first. Throws `Error`
     /// if they do not make whole rows, as for all that is wrong with them.
     static Hierarchy build(Span<const float> heights, std::size_t columns, const HierarchyOptions &options = {});
 
+    /// Remeshes an oriented manifold to a semi-regular surface, of about `base_quads` quads halved `depth` times, and
+    /// decomposes that. `at` then knows vertices, ratios and RMS; there are no files and no `tin`.
+    static Hierarchy remesh(MeshView mesh, std::uint32_t depth, std::size_t base_quads = 400,
+                            const HierarchyOptions &options = {});
+
     /// The hierarchy in a file that `write` made. `path` is UTF-8.
     static Hierarchy read(const std::string &path);
     /// Writes a file as docs/hierarchy-format.md describes it, whole or not at all.
     void write(const std::string &path) const;
 
-    /// How many samples are not void.
+    /// How many samples are not void, or vertices the surface has.
     std::size_t samples() const noexcept { return decimesh_hierarchy_samples(get()); }
 
     /// The mesh with as much detail as is wanted, and more where a sample would be farther from it than `max_error`.
@@ -1100,6 +1105,30 @@ private:
     Watcher watcher_;
 };
 
+/// The struct of a call that decomposes. `options` must outlive it.
+class HierarchyCall {
+public:
+    explicit HierarchyCall(const HierarchyOptions &options) : watcher_(options.progress) {
+        raw.has_no_data = options.no_data ? 1 : 0;
+        raw.no_data = options.no_data.value_or(0.0F);
+        raw.column_spacing = options.column_spacing;
+        raw.row_spacing = options.row_spacing;
+        raw.importance = options.importance.empty() ? nullptr : options.importance.data();
+        raw.sweeps = options.sweeps;
+        raw.max_sweeps = options.max_sweeps;
+        raw.gap = options.gap;
+        raw.threads = options.threads;
+        watcher_.attach(raw);
+    }
+
+    void check(decimesh_status status) const { watcher_.check(status); }
+
+    decimesh_hierarchy_options raw = sized<decimesh_hierarchy_options>();
+
+private:
+    Watcher watcher_;
+};
+
 /// Where `destination` begins. Room for nothing may be nowhere, which to C would be a pointer forgotten.
 template <class Index>
 void *room_of(Span<Index> destination) noexcept {
@@ -1348,23 +1377,23 @@ inline Hierarchy Hierarchy::build(Span<const float> heights, std::size_t columns
         throw Error(Status::option, std::to_string(options.importance.size()) + " weights for " +
                                         std::to_string(heights.size()) + " heights");
     }
-    auto raw = detail::sized<decimesh_hierarchy_options>();
-    raw.has_no_data = options.no_data ? 1 : 0;
-    raw.no_data = options.no_data.value_or(0.0F);
-    raw.column_spacing = options.column_spacing;
-    raw.row_spacing = options.row_spacing;
-    raw.importance = options.importance.empty() ? nullptr : options.importance.data();
-    raw.sweeps = options.sweeps;
-    raw.max_sweeps = options.max_sweeps;
-    raw.gap = options.gap;
-    raw.threads = options.threads;
-    detail::Watcher watcher(options.progress);
-    watcher.attach(raw);
+    detail::HierarchyCall call(options);
     Hierarchy hierarchy;
     decimesh_hierarchy *handle = nullptr;
-    const decimesh_status status = decimesh_hierarchy_create(heights.data(), columns, rows, &raw, &handle);
+    const decimesh_status status = decimesh_hierarchy_create(heights.data(), columns, rows, &call.raw, &handle);
     hierarchy.handle_.reset(handle);
-    watcher.check(status);
+    call.check(status);
+    return hierarchy;
+}
+
+inline Hierarchy Hierarchy::remesh(MeshView mesh, std::uint32_t depth, std::size_t base_quads,
+                                   const HierarchyOptions &options) {
+    detail::HierarchyCall call(options);
+    Hierarchy hierarchy;
+    decimesh_hierarchy *handle = nullptr;
+    const decimesh_status status = decimesh_hierarchy_remesh(mesh.get(), depth, base_quads, &call.raw, &handle);
+    hierarchy.handle_.reset(handle);
+    call.check(status);
     return hierarchy;
 }
 

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use proptest::prelude::*;
 
+use super::brute_force::exhaustive;
 use super::decomposition::{Decomposition, DecompositionOptions, Detail};
 use super::distortion::{Half, Place, distortions};
 use super::extract::{Extract, extract};
@@ -279,9 +280,9 @@ proptest! {
         let field = HeightField::new(5, 5, heights, None).unwrap();
         let decomposition = decompose(field, 1);
         let lattice = decomposition.lattice();
-        let unit = lattice.squared_unit() as f32;
-        let deltas: Vec<f32> = deltas(lattice).into_iter().map(|delta| delta * unit).collect();
-        let best = best_of_all(lattice.layout(), &deltas);
+        let unit = lattice.squared_unit();
+        let deltas: Vec<f64> = deltas(lattice).into_iter().map(|delta| f64::from(delta) * unit).collect();
+        let best = exhaustive(lattice.layout(), &deltas).0;
         for (removed, best) in best.into_iter().enumerate() {
             let (bound, made) = (decomposition.bound(removed), decomposition.squared_error(removed));
             prop_assert!(bound <= best + 1e-3, "{bound} {best}");
@@ -371,10 +372,10 @@ proptest! {
         let unit = lattice.squared_unit();
         let deltas: Vec<f64> = deltas(lattice).into_iter().map(|delta| f64::from(delta) * unit).collect();
         for slope in [0.1, 1.0, 10.0] {
-            let gain = |vertex: usize| (deltas[vertex] - slope * cost(vertex)) as f32;
-            let gains: Vec<f32> = (0..layout.vertices()).map(gain).collect();
-            let best = best_of_all(layout, &gains).into_iter().fold(f64::INFINITY, f64::min);
-            let order = decomposition.order().iter().map(|&vertex| f64::from(gains[vertex as usize]));
+            let gain = |vertex: usize| deltas[vertex] - slope * cost(vertex);
+            let gains: Vec<f64> = (0..layout.vertices()).map(gain).collect();
+            let best = exhaustive(layout, &gains).0.into_iter().fold(f64::INFINITY, f64::min);
+            let order = decomposition.order().iter().map(|&vertex| gains[vertex as usize]);
             let made = order.scan(0.0, |sum, gain| { *sum += gain; Some(*sum) }).fold(0.0, f64::min);
             prop_assert!(made <= best + 0.01 * (1.0 + best.abs()), "{made} {best}");
         }
@@ -413,38 +414,6 @@ proptest! {
             prop_assert!(mesh.rms <= rms + 1e-6);
         }
     }
-}
-
-/// The least distortion of all conforming meshes, by how many vertices are gone.
-fn best_of_all(layout: &Layout, deltas: &[f32]) -> Vec<f64> {
-    let vertices = layout.vertices();
-    let children: Vec<Vec<usize>> = (0..vertices)
-        .map(|vertex| layout.children(layout.site(vertex)).map(|child| layout.index(child)).collect())
-        .collect();
-    let mut best = vec![f64::INFINITY; vertices + 1];
-    // The finest level may go in any way; what is above only after its children.
-    fn visit(
-        vertex: usize,
-        gone: &mut Vec<bool>,
-        count: usize,
-        sum: f64,
-        children: &[Vec<usize>],
-        deltas: &[f32],
-        best: &mut [f64],
-    ) {
-        let Some(vertex) = vertex.checked_sub(1) else {
-            best[count] = best[count].min(sum);
-            return;
-        };
-        visit(vertex, gone, count, sum, children, deltas, best);
-        if children[vertex].iter().all(|&child| gone[child]) {
-            gone[vertex] = true;
-            visit(vertex, gone, count + 1, sum + f64::from(deltas[vertex]), children, deltas, best);
-            gone[vertex] = false;
-        }
-    }
-    visit(vertices, &mut vec![false; vertices], 0, 0.0, &children, deltas, &mut best);
-    best
 }
 
 #[test]
