@@ -53,9 +53,9 @@
 #define DECIMESH_VERTEX_PRIORITIZE 4
 
 /**
- * Heights over a grid, decomposed: the order in which samples go, from all of them to a few, such that
- * whatever is left has about the least squared error of all conforming 4-8 meshes of as many vertices.
- * Immutable.
+ * Heights over a grid, or a semi-regular surface, decomposed: the order in which vertices go, from all of them to
+ * a few, such that whatever is left has about the least squared error of all conforming 4-8 meshes of as many
+ * vertices. Immutable.
  *
  * A const decimesh_hierarchy* may be used from many threads at once.
  */
@@ -810,7 +810,7 @@ typedef struct decimesh_hierarchy_report {
      */
     double rms;
     /**
-     * Largest vertical error of a sample.
+     * Largest vertical error of a sample; not a number for a surface.
      */
     double max_error;
     /**
@@ -1857,8 +1857,8 @@ decimesh_status decimesh_hierarchy_create(const float *heights,
 /**
  * Writes a hierarchy to a file, as docs/hierarchy-format.md describes it. The usual extension is .drd.
  *
- * The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8. Fails with _NULL, _UTF8 or
- * _IO. Linear in the samples; any thread.
+ * The file appears whole or not at all, as by decimesh_mesh_write(). path is UTF-8. Fails with _NULL, _UTF8, _IO
+ * or _OPTION (the hierarchy is one of a surface). Linear in the samples; any thread.
  */
 decimesh_status decimesh_hierarchy_write(const struct decimesh_hierarchy *hierarchy,
                                          const char *path);
@@ -1874,6 +1874,25 @@ decimesh_status decimesh_hierarchy_read(const char *path,
                                         struct decimesh_hierarchy **hierarchy);
 
 /**
+ * Remeshes a mesh, an oriented manifold with or without borders, to a semi-regular surface, and decomposes that: a
+ * base of about base_quads quads (at least 1; 400 is a good number), each halved depth times (at least once) to
+ * 4^depth squares whose corners lie on the mesh.
+ *
+ * Errors are then distances in space between the vertices of the surface and where they are in the result. options
+ * may be NULL; what it says of heights is not looked at.
+ *
+ * *hierarchy receives the hierarchy, which the caller ends with decimesh_hierarchy_destroy(). Fails with _NULL,
+ * _EMPTY, _OPTION (the mesh is no such manifold, and the text says where; or the base cannot be halved so often),
+ * _STRUCT_SIZE, _UNKNOWN_OPTION, _CANCELLED or _THREADS. About 20 microseconds a vertex of the surface, and 120
+ * bytes. Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_hierarchy_remesh(const struct decimesh_mesh *mesh,
+                                          uint32_t depth,
+                                          size_t base_quads,
+                                          const struct decimesh_hierarchy_options *options,
+                                          struct decimesh_hierarchy **hierarchy);
+
+/**
  * Ends a hierarchy. NULL is left alone.
  *
  * No other thread may use it any more. Meshes taken from it live on.
@@ -1881,7 +1900,8 @@ decimesh_status decimesh_hierarchy_read(const char *path,
 void decimesh_hierarchy_destroy(struct decimesh_hierarchy *hierarchy);
 
 /**
- * How many samples are not void; 0 for NULL. Constant time; any thread; never fails.
+ * How many samples are not void, or how many vertices the surface has; 0 for NULL. Constant time; any thread; never
+ * fails.
  */
 size_t decimesh_hierarchy_samples(const struct decimesh_hierarchy *hierarchy);
 
@@ -1897,7 +1917,8 @@ size_t decimesh_hierarchy_samples(const struct decimesh_hierarchy *hierarchy);
  * INFINITY for no such bound.
  *
  * *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(). report may be NULL; with it, the
- * largest error is measured, in time linear in the samples. Fails with _NULL, _ENUM, _OPTION or _STRUCT_SIZE.
+ * largest error is measured, in time linear in the samples. Of a surface there are vertices, ratios and RMS alone, in
+ * time linear in what comes out. Fails with _NULL, _ENUM, _OPTION or _STRUCT_SIZE.
  * Otherwise the time is linear in what comes out for vertices and ratios of a grid of 2^d + 1 columns and rows
  * without voids, times the logarithm of the samples for others; and n log n in the samples where errors are
  * bounded. Any thread.
@@ -1916,7 +1937,7 @@ decimesh_status decimesh_hierarchy_at(const struct decimesh_hierarchy *hierarchy
  *
  * The rim of what is known is covered exactly, which may take more vertices than asked for. progress may be NULL.
  * *mesh receives the mesh, which the caller ends with decimesh_mesh_destroy(). report may be NULL; its
- * certified_gap becomes infinite. Fails with _NULL, _OPTION, _STRUCT_SIZE or _CANCELLED. About linear in the
+ * certified_gap becomes infinite. Fails with _NULL, _OPTION (also for a surface), _STRUCT_SIZE or _CANCELLED. About linear in the
  * samples, and n log n in the vertices. Any thread; progress is told on the calling one.
  */
 decimesh_status decimesh_hierarchy_tin(const struct decimesh_hierarchy *hierarchy,
