@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
 }
 
 /// Pixels across.
-const WIDTH: usize = 1500;
+const WIDTH: usize = 1100;
 
 fn draw(meshes: &[(&Mesh, &str)], path: &Path, progress: &Progress) -> Result<(), Failure> {
     let turned: Vec<Mesh> = meshes.iter().map(|(mesh, _)| upright(mesh)).collect::<Result<_, _>>()?;
