@@ -22,7 +22,6 @@ import time
 import numpy as np
 import pydelatin
 import pymartini
-from matplotlib.tri import LinearTriInterpolator, Triangulation
 from PIL import Image
 
 RATES = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005]
@@ -48,19 +47,34 @@ def read(spec):
 
 
 def errors(heights, x, y, z, triangles):
-    """RMS and maximum of the vertical error over all samples; x are columns, y rows."""
-    rows, columns = heights.shape
-    surface = LinearTriInterpolator(Triangulation(x, y, triangles), z)
-    squared, largest = 0.0, 0.0
-    for start in range(0, rows, 256):
-        block = np.arange(start, min(start + 256, rows))
-        at_x, at_y = np.meshgrid(np.arange(columns), block)
-        error = np.asarray(surface(at_x, at_y).filled(np.nan), dtype=np.float64) - heights[block]
-        # Rounding may leave samples at the rim outside.
-        error = np.nan_to_num(error)
-        squared += float((error**2).sum())
-        largest = max(largest, float(np.abs(error).max()))
-    return (squared / heights.size) ** 0.5, largest
+    """RMS and maximum of the vertical error over all samples; x are columns, y rows, all of them samples'."""
+    corners = np.stack([np.rint(x), np.rint(y)], axis=-1).astype(np.int64)[triangles]
+    at = np.asarray(z, dtype=np.float64)[triangles]
+    low = corners.min(axis=1)
+    size = corners.max(axis=1) - low
+    error = np.full(heights.shape, np.nan)
+    # Triangles with boxes of one size are looked through together, sample by sample of the box.
+    keys = size[:, 0] * (heights.shape[1] + 1) + size[:, 1]
+    order = np.argsort(keys, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(keys[order])) + 1)
+    for group in groups:
+        width, height = size[group[0]] + 1
+        # Some hundred thousand samples at a time.
+        for part in np.array_split(group, -(-len(group) * width * height // 400_000)):
+            (ax, ay), (bx, by), (cx, cy) = (corners[part, k].T[:, :, None] for k in range(3))
+            px = low[part, 0, None] + np.tile(np.arange(width), height)
+            py = low[part, 1, None] + np.repeat(np.arange(height), width)
+            area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+            of_a = ((bx - px) * (cy - py) - (by - py) * (cx - px)) * np.sign(area)
+            of_b = ((cx - px) * (ay - py) - (cy - py) * (ax - px)) * np.sign(area)
+            of_c = np.abs(area) - of_a - of_b
+            inside = (of_a >= 0) & (of_b >= 0) & (of_c >= 0) & (area != 0)
+            surface = (of_a * at[part, 0, None] + of_b * at[part, 1, None] + of_c * at[part, 2, None])[inside]
+            surface /= np.broadcast_to(np.abs(area), inside.shape)[inside]
+            error[py[inside], px[inside]] = surface - heights[py[inside], px[inside]]
+    if np.isnan(error).any():
+        raise SystemExit(f"{np.isnan(error).sum()} samples are not covered")
+    return float(np.sqrt((error**2).mean())), float(np.abs(error).max())
 
 
 def martini(heights, wanted):

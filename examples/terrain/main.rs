@@ -1,7 +1,8 @@
 //! What decomposing terrain and taking meshes from it costs: time and memory for each sample, and for each vertex.
 //!
 //! `cargo run --release --example terrain` measures on fractal terrain of growing size;
-//! `cargo run --release --example terrain --features io -- dem.npy dem.png` on files.
+//! `cargo run --release --example terrain --features io -- dem.npy dem.png` on files. With `--baselines`, what the error
+//! is by the methods of the paper, at the same rates.
 
 use std::alloc::System;
 use std::error::Error;
@@ -10,7 +11,9 @@ use std::time::Instant;
 
 use clap::Parser;
 use decimesh::Monitor;
-use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, HeightField};
+use decimesh::rate_distortion::{
+    Baseline, Criterion, Decomposition, DecompositionOptions, Detail, HeightField,
+};
 use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
 
 #[global_allocator]
@@ -25,6 +28,9 @@ struct Arguments {
     /// The largest fractal terrain has 2^N + 1 columns and rows.
     #[arg(long, value_name = "N", default_value_t = 13)]
     largest: u32,
+    /// Compare with the paper's generalized decimation and with what it compares with, in decibels.
+    #[arg(long)]
+    baselines: bool,
     /// How often each is done; the fastest counts.
     #[arg(long, default_value_t = 5)]
     rounds: usize,
@@ -35,6 +41,9 @@ const RATIOS: [f64; 5] = [0.2, 0.05, 0.01, 0.001, 0.0001];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
+    if arguments.baselines {
+        return compare(&arguments);
+    }
     let mut last = None;
     println!("| terrain | samples | 1 thread, s/M | 2 threads, s/M | bytes/sample |");
     println!("| --- | --: | --: | --: | --: |");
@@ -106,6 +115,46 @@ fn fractal(depth: u32) -> HeightField {
         (step, rough) = (half, rough * 0.55);
     }
     HeightField::new(side, side, heights, None).expect("finite heights")
+}
+
+/// The methods of the paper, and what they are called.
+const BASELINES: [(Baseline, &str); 5] = [
+    (Baseline::GeneralizedDecimation, "generalized decimation"),
+    (Baseline::Decimation(Criterion::Global), "one at a time, global error"),
+    (Baseline::Decimation(Criterion::Local), "one at a time, local error"),
+    (Baseline::Insertion(Criterion::Global), "insertion, global error"),
+    (Baseline::Insertion(Criterion::Local), "insertion, local error"),
+];
+/// The parts of the samples at which they are compared.
+const RATES: [f64; 7] = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
+
+/// Prints the RMS of ours, and by how many decibels the others' are above it.
+fn compare(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    println!("| terrain | | s | {} |", RATES.map(|rate| format!("{} %", 100.0 * rate)).join(" | "));
+    println!("| --- | --- | --: |{}", " --: |".repeat(RATES.len()));
+    for (name, field) in fields(arguments)? {
+        let rms = |decomposition: &Decomposition| {
+            let at = |rate| Ok(decomposition.at(Detail::Ratio(rate))?.rms);
+            RATES.into_iter().map(at).collect::<Result<Vec<f64>, Box<dyn Error>>>()
+        };
+        let options = DecompositionOptions { threads: 1, ..DecompositionOptions::default() };
+        let begin = Instant::now();
+        let ours = Decomposition::new(field.clone(), &options, &mut Monitor::silent())?;
+        let seconds = begin.elapsed().as_secs_f64();
+        let ours = rms(&ours)?;
+        let cells: Vec<String> = ours.iter().map(|rms| format!("{rms:.4}")).collect();
+        println!("| {name} | flow sweeps, RMS | {seconds:.2} | {} |", cells.join(" | "));
+        for (baseline, method) in BASELINES {
+            let begin = Instant::now();
+            let other = Decomposition::by_baseline(field.clone(), baseline, &mut Monitor::silent())?;
+            let seconds = begin.elapsed().as_secs_f64();
+            let above =
+                rms(&other)?.into_iter().zip(&ours).map(|(other, ours)| 20.0 * (other / ours).log10());
+            let cells: Vec<String> = above.map(|decibels| format!("{decibels:+.2}")).collect();
+            println!("| {name} | {method}, dB | {seconds:.2} | {} |", cells.join(" | "));
+        }
+    }
+    Ok(())
 }
 
 /// Prints a row about the decomposition of a field, which comes back.
