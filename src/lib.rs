@@ -19,7 +19,7 @@
 //! | --- | --- | --- |
 //! | 5 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
 //! | 4 | [`lod`] | levels of detail on one vertex buffer: nested levels, progressive meshes |
-//! | 4 | [`rate_distortion`] | terrain: every rate of a field of heights from one run, TINs, tiles |
+//! | 4 | [`rate_distortion`] | terrain and semi-regular surfaces: every rate from one run, TINs, tiles |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
 //! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
 //! | 2 | `collapse` | the edge-collapse operator: which collapses are legal, and what they do |

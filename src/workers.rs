@@ -51,6 +51,19 @@ impl Workers {
         }
     }
 
+    /// The list of what `make` gives for 0, 1, 2, ... up to `count`.
+    pub(crate) fn list<T: Send>(&self, count: usize, make: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        /// Fewer are not worth a trip to another thread.
+        const LEAST: usize = 1 << 14;
+        let places = 0..count;
+        let in_parallel = |make| places.clone().into_par_iter().with_min_len(LEAST).map(make).collect();
+        match self {
+            Self::Caller => places.map(make).collect(),
+            Self::Global => in_parallel(make),
+            Self::Pool(pool) => pool.install(|| in_parallel(make)),
+        }
+    }
+
     /// Applies `work` to `first` and to `second`, side by side where there are threads.
     #[cfg(feature = "deviation")]
     pub(crate) fn both<T: Send, R: Send>(

@@ -37,7 +37,7 @@ impl Decomposition {
         let layout = lattice.layout();
         let collected = Collected::new(&lattice);
         distortions(&collected, lattice.roots(), layout.levels(), &workers, monitor, 0.0..DELTAS)?;
-        let deltas = collected.into_deltas();
+        let deltas = collected.into_deltas(&workers);
         let errors = |criterion| match criterion {
             Criterion::Global => deltas.iter().map(|&delta| f64::from(delta)).collect(),
             Criterion::Local => {

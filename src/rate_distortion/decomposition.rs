@@ -159,7 +159,7 @@ impl Decomposition {
     fn deltas(lattice: &Lattice, workers: &Workers, monitor: &mut Monitor) -> Result<Vec<f32>, Error> {
         let collected = Collected::new(lattice);
         distortions(&collected, lattice.roots(), lattice.layout().levels(), workers, monitor, 0.0..0.3)?;
-        Ok(collected.into_deltas())
+        Ok(collected.into_deltas(workers))
     }
 
     /// The order of given slopes, none less than that of a child; finer levels first where slopes are equal.
@@ -170,9 +170,10 @@ impl Decomposition {
         certificate: Certificate,
         workers: &Workers,
     ) -> Self {
-        let mut keys: Vec<u64> = (0..slopes.len()).map(|vertex| key(&slopes, vertex)).collect();
+        let mut keys = workers.list(slopes.len(), |vertex| key(&slopes, vertex));
         workers.sort(&mut keys);
-        let order: Vec<u32> = keys.into_iter().map(|key| !(key as u32)).collect();
+        let order = workers.list(keys.len(), |place| !(keys[place] as u32));
+        drop(keys);
         let removable = order.partition_point(|&vertex| slopes[vertex as usize] < NEVER);
         let weight = total_weight(&lattice);
         Self {

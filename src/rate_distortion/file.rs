@@ -104,7 +104,7 @@ fn read(source: &mut Source) -> Result<Decomposition, ReadError> {
     let collected = Collected::new(&lattice);
     distortions(&collected, lattice.roots(), layout.levels(), &workers, &mut Monitor::silent(), 0.0..1.0)
         .map_err(|error| unexpected(&error))?;
-    let deltas = collected.into_deltas();
+    let deltas = collected.into_deltas(&workers);
     if let Some(vertex) = (0..slopes.len()).find(|&vertex| deltas[vertex] >= NEVER && slopes[vertex] < NEVER)
     {
         let problem = format!("vertex {vertex} goes, which would leave triangles over voids");

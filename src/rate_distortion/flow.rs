@@ -50,7 +50,7 @@ pub(crate) struct Flow {
 impl Flow {
     /// No flow at all, of vertices with these changes of distortion; infinite for those that must not go.
     pub(crate) fn new(hierarchy: &impl Hierarchy, deltas: &[f32], workers: &Workers) -> Self {
-        let slopes = deltas.iter().map(|delta| delta.clamp(-NEVER, NEVER)).collect();
+        let slopes = workers.list(deltas.len(), |vertex| deltas[vertex].clamp(-NEVER, NEVER));
         let mut flow = Self { slopes, given: [vec![0.0; deltas.len()], vec![0.0; deltas.len()]] };
         // What must stay keeps all that it hangs on: what lies below such a vertex flows around it.
         if flow.slopes.contains(&NEVER) {
@@ -71,7 +71,7 @@ impl Flow {
 
     /// What each vertex has, raised to what its descendants have, so that each goes after them.
     pub(crate) fn raised(&mut self, hierarchy: &impl Hierarchy, workers: &Workers) -> Vec<f32> {
-        let slopes = self.slopes.clone();
+        let slopes = workers.list(self.slopes.len(), |vertex| self.slopes[vertex]);
         self.up::<Raise>(hierarchy, workers);
         std::mem::replace(&mut self.slopes, slopes)
     }
@@ -299,6 +299,13 @@ pub(crate) struct Certificate {
 /// How many leading bits a class is made of: sign, exponent and seven of the fraction.
 const CLASS_BITS: u32 = 16;
 
+/// Slopes are counted so many at a time, each time in a table of its own.
+const PART: usize = 1 << 21;
+
+fn class(slope: f32) -> usize {
+    (rank(slope) >> (32 - CLASS_BITS)) as usize
+}
+
 /// A class that slopes are in.
 #[cfg(feature = "io")]
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -339,12 +346,23 @@ impl Certificate {
 
 impl Certificate {
     /// From slopes that are not raised.
-    pub(crate) fn new(slopes: &[f32]) -> Self {
-        let mut sums = vec![(0, 0.0); 1 << CLASS_BITS];
-        for &slope in slopes {
-            let (count, sum) = &mut sums[(rank(slope) >> (32 - CLASS_BITS)) as usize];
-            *count += 1;
-            *sum += f64::from(slope);
+    pub(crate) fn new(slopes: &[f32], workers: &Workers) -> Self {
+        let counted = workers.map(slopes.chunks(PART).collect(), |slopes: &[f32]| {
+            let mut sums = vec![(0, 0.0); 1 << CLASS_BITS];
+            for &slope in slopes {
+                let (count, sum) = &mut sums[class(slope)];
+                *count += 1;
+                *sum += f64::from(slope);
+            }
+            sums
+        });
+        let mut parts = counted.into_iter();
+        let mut sums = parts.next().unwrap_or_else(|| vec![(0, 0.0); 1 << CLASS_BITS]);
+        for part in parts {
+            for ((count, sum), (more, added)) in sums.iter_mut().zip(part) {
+                *count += more;
+                *sum += added;
+            }
         }
         let (mut all, mut total) = (0, 0.0);
         for (count, sum) in &mut sums {
@@ -409,9 +427,9 @@ pub(crate) fn solve<E>(
             done += 2;
             report(done as f32 / effort.most.max(done) as f32)?;
         }
-        let certificate = Certificate::new(&flow.slopes);
+        let certificate = Certificate::new(&flow.slopes, workers);
         let slopes = flow.raised(hierarchy, workers);
-        if done >= effort.most || gap(deltas, &slopes, &certificate) <= effort.gap {
+        if done >= effort.most || gap(deltas, &slopes, &certificate, workers) <= effort.gap {
             return Ok((slopes, certificate));
         }
     }
@@ -421,18 +439,19 @@ pub(crate) fn solve<E>(
 const WATCHED: f64 = 0.2;
 
 /// By how many decibels the distortion is above the bound where about a fifth of the vertices is left.
-fn gap(deltas: &[f32], slopes: &[f32], certificate: &Certificate) -> f64 {
+fn gap(deltas: &[f32], slopes: &[f32], certificate: &Certificate, workers: &Workers) -> f64 {
     // The slope below which that many are: by classes, as they are, for which nothing is sorted.
-    let raised = Certificate::new(slopes);
+    let raised = Certificate::new(slopes, workers);
     let wanted = ((1.0 - WATCHED) * raised.count() as f64) as u64;
-    let class = raised.sums.partition_point(|&(count, _)| count < wanted) as u32;
-    let (mut removed, mut distortion) = (0, 0.0);
-    for (&slope, &delta) in slopes.iter().zip(deltas) {
-        if rank(slope) >> (32 - CLASS_BITS) <= class && slope < NEVER {
-            removed += 1;
-            distortion += f64::from(delta);
-        }
-    }
+    let last = raised.sums.partition_point(|&(count, _)| count < wanted);
+    let parts = slopes.chunks(PART).zip(deltas.chunks(PART)).collect();
+    let summed = workers.map(parts, |(slopes, deltas): (&[f32], &[f32])| {
+        let all = slopes.iter().zip(deltas);
+        let gone = all.filter(|&(&slope, _)| class(slope) <= last && slope < NEVER);
+        gone.fold((0, 0.0), |(count, sum), (_, &delta)| (count + 1, sum + f64::from(delta)))
+    });
+    let (removed, distortion) =
+        summed.into_iter().fold((0, 0.0), |all, part| (all.0 + part.0, all.1 + part.1));
     decibels(distortion, certificate.bound(removed))
 }
 

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use super::distortion::{Field, Half, Place, VALID, VOID};
 use super::height_field::HeightField;
 use super::layout::Layout;
+use crate::workers::Workers;
 
 /// The samples of a layout, with a field on them.
 #[derive(Debug, Clone, PartialEq)]
@@ -209,10 +210,10 @@ impl<'a> Collected<'a> {
     }
 
     /// The change of distortion of each vertex, by number, over [`Lattice::squared_unit`].
-    pub(crate) fn into_deltas(self) -> Vec<f32> {
-        let [first, second] = self.sides;
-        let value = |bits: AtomicU32| f32::from_bits(bits.into_inner());
-        first.into_iter().zip(second).map(|(first, second)| value(first) + value(second)).collect()
+    pub(crate) fn into_deltas(self, workers: &Workers) -> Vec<f32> {
+        let [first, second] = &self.sides;
+        let value = |bits: &AtomicU32| f32::from_bits(bits.load(Relaxed));
+        workers.list(first.len(), |vertex| value(&first[vertex]) + value(&second[vertex]))
     }
 }
 

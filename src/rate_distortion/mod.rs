@@ -23,6 +23,9 @@
 //! ([`Baseline::GeneralizedDecimation`]), beside the methods that it compares with; `flow.rs` says what takes its place
 //! and why. [`tiles`] does fields that are larger than memory, [`tin`] sets the mesh free from the hierarchy where that
 //! is not needed, [`vertical`] measures, and [`polyline`] is all of it in one dimension.
+//!
+//! Surfaces have the same levels over a base of quads, a [`SemiRegularMesh`], which [`remesh`] makes of any oriented
+//! manifold; a [`SurfaceDecomposition`] is to them what a [`Decomposition`] is to fields.
 
 mod baselines;
 #[cfg(test)]

@@ -45,7 +45,7 @@ fn deltas(lattice: &Lattice) -> Vec<f32> {
     let levels = lattice.layout().levels();
     let silent = &mut Monitor::silent();
     distortions(&collected, lattice.roots(), levels, &Workers::Caller, silent, 0.0..1.0).unwrap();
-    collected.into_deltas()
+    collected.into_deltas(&Workers::Caller)
 }
 
 /// A triangle of places with heights, from which barycentric coordinates are taken in the plainest way.

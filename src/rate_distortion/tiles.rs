@@ -470,7 +470,7 @@ fn deltas(lattice: &Lattice) -> Result<Vec<f32>, Error> {
     let collected = Collected::new(lattice);
     let levels = lattice.layout().levels();
     distortions(&collected, lattice.roots(), levels, &Workers::Caller, &mut Monitor::silent(), 0.0..1.0)?;
-    Ok(collected.into_deltas())
+    Ok(collected.into_deltas(&Workers::Caller))
 }
 
 fn class(slope: f32) -> usize {
