@@ -28,8 +28,12 @@ float importance(std::size_t column, std::size_t row, std::size_t from_column, s
 }
 
 void print(const char *what, const decimesh::Taken &taken) {
-    std::printf("%-24s %6zu vertices, RMS %5.2f m, maximum %5.1f m, at most %.3f dB above the best\n", what,
-                taken.mesh.vertex_count(), taken.rms, taken.max_error, taken.certified_gap);
+    std::printf("%-24s %6zu vertices, RMS %5.2f m, maximum %5.1f m", what, taken.mesh.vertex_count(), taken.rms,
+                taken.max_error);
+    if (std::isfinite(taken.certified_gap)) {
+        std::printf(", at most %.3f dB above the best", taken.certified_gap);
+    }
+    std::printf("\n");
 }
 
 }   // namespace
@@ -58,7 +62,7 @@ int main() {
         const decimesh::Hierarchy from_here = decimesh::Hierarchy::build(heights, side, options);
         print("as seen from a place:", from_here.at(decimesh::Detail::ratio(0.02)));
 
-        const bool is_right = tenth.mesh.vertex_count() == side * side / 10 && close.max_error <= 2;
+        const bool is_right = tenth.mesh.vertex_count() == (side * side + 5) / 10 && close.max_error <= 2;
         return is_right ? EXIT_SUCCESS : EXIT_FAILURE;
     } catch (const decimesh::Error &error) {
         std::fprintf(stderr, "%s\n", error.what());
