@@ -33,9 +33,9 @@ std::vector<std::uint32_t> indices_at(const Progressive &progressive, std::size_
     return indices;
 }
 
-/// A file's bytes, as the library writes them.
-std::string file_of(const Progressive &progressive) {
-    const auto path = std::filesystem::temp_directory_path() / "decimesh-tests-progressive.dpm";
+/// A file's bytes, as the library writes them. Tests run side by side, so each has a `name` of its own.
+std::string file_of(const Progressive &progressive, const std::string &name) {
+    const auto path = std::filesystem::temp_directory_path() / ("decimesh-tests-" + name + ".dpm");
     progressive.write(path.string());
     std::ifstream file(path, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -86,7 +86,7 @@ TEST_CASE("progressive: targets are marked") {
 
 TEST_CASE("progressive: files and memory bring the same levels back") {
     const Progressive progressive = made(shapes::Dressed(shapes::stone(24, 16)).mesh());
-    const std::string bytes = file_of(progressive);
+    const std::string bytes = file_of(progressive, "back");
     const Progressive whole = Progressive::from_memory(bytes.data(), bytes.size());
     CHECK(whole.steps() == progressive.steps());
     CHECK(bytes_of(whole.vertices()) == bytes_of(progressive.vertices()));
@@ -95,7 +95,7 @@ TEST_CASE("progressive: files and memory bring the same levels back") {
     for (const std::size_t step : {std::size_t{0}, progressive.steps() / 2, progressive.steps()}) {
         CHECK(indices_at(whole, step) == indices_at(progressive, step));
     }
-    CHECK(file_of(whole) == bytes);
+    CHECK(file_of(whole, "back") == bytes);
 
     // The beginning of a file is enough for a coarse level.
     const Progressive part = Progressive::from_memory(bytes.data(), bytes.size(), 200);
@@ -112,7 +112,7 @@ TEST_CASE("progressive: files and memory bring the same levels back") {
 }
 
 TEST_CASE("progressive: damaged bytes are refused or are still a mesh") {
-    const std::string bytes = file_of(made(shapes::stone(12, 8).mesh()));
+    const std::string bytes = file_of(made(shapes::stone(12, 8).mesh()), "beginning");
     auto *progressive = calls::nobody<decimesh_progressive>();
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 200) {
         // A copy no longer than that, so that sanitizers see what is read beyond its end.
