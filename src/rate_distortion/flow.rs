@@ -54,7 +54,7 @@ impl Flow {
         let mut flow = Self { slopes, given: [vec![0.0; deltas.len()], vec![0.0; deltas.len()]] };
         // What must stay keeps all that it hangs on: what lies below such a vertex flows around it.
         if flow.slopes.contains(&NEVER) {
-            flow.up::<Raise>(hierarchy, workers);
+            flow.up::<Keep>(hierarchy, workers);
         }
         flow
     }
@@ -135,6 +135,17 @@ impl Operation for Level {
         let level = level_of(parent, have);
         let keep = have.map(|have| smaller(have, level));
         (level, keep, std::array::from_fn(|i| have[i] - keep[i]))
+    }
+}
+
+/// Keeps the parent of a child that must not go.
+struct Keep;
+
+impl Operation for Keep {
+    #[inline(always)]
+    fn on<const N: usize>(parent: f32, slopes: [f32; N], given: [f32; N]) -> (f32, [f32; N], [f32; N]) {
+        let is_needed = slopes.iter().any(|&slope| slope >= NEVER);
+        (if is_needed { NEVER } else { parent }, slopes, given)
     }
 }
 
