@@ -289,7 +289,7 @@ impl Decomposition {
         const STEPS: u32 = 8;
         // More must go than `low`, and no more need to than `high`.
         let (mut low, mut high) = (None, self.removable);
-        let mut removed = guess.min(self.removable);
+        let (mut removed, mut back) = (guess.min(self.removable), 1);
         for step in 0.. {
             let found = count(removed);
             if found > vertices {
@@ -298,10 +298,16 @@ impl Decomposition {
                 high = removed;
             }
             let first = low.map_or(0, |low| low + 1);
-            if found == vertices || first >= high {
+            if first >= high {
                 break;
             }
-            let next = (removed + found).saturating_sub(vertices);
+            let next = if found == vertices {
+                // Some that go are no vertices of the mesh: they lie beyond the field, or only voids need them.
+                back *= 2;
+                high.saturating_sub(back / 2).max(first)
+            } else {
+                (removed + found).saturating_sub(vertices)
+            };
             removed = match step < STEPS && (first..high).contains(&next) {
                 true => next,
                 false => first + (high - first) / 2,
