@@ -45,11 +45,7 @@ pub(crate) fn run(arguments: &DemoArguments) -> Result<(), Failure> {
 
     let path = directory.join("demo.png");
     let exhibits = exhibits(&original, &levels);
-    let picture = progress
-        .during("drawing", |monitor| render::draw(&exhibits, arguments.width, monitor))
-        .map_err(|error| Failure::Unexpected(error.to_string()))?;
-    let png = picture.png().map_err(|error| Failure::Unexpected(error.to_string()))?;
-    report::write_atomically(&path, &png)?;
+    render::write(&exhibits, arguments.width, &path, &progress)?;
     if !arguments.quiet {
         report::print(&format!("\nThe picture is {}, the levels are beside it.\n", path.display()))?;
     }

@@ -60,6 +60,11 @@ pub(crate) fn check_directory(path: &Path) -> Result<(), Failure> {
     Err(Failure::write(path)(source))
 }
 
+/// The same, where `made` is a directory that is made later, and is as good as there.
+pub(crate) fn check_directory_but(path: &Path, made: &Path) -> Result<(), Failure> {
+    if directory_of(path) == made { Ok(()) } else { check_directory(path) }
+}
+
 /// The directory that a file at `path` is in.
 pub(crate) fn directory_of(path: &Path) -> &Path {
     match path.parent() {

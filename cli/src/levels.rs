@@ -12,9 +12,7 @@ use decimesh::{Mesh, Options, Placement, Simplified, Target};
 use crate::allocation::peak_bytes;
 use crate::arguments::{EngineName, LevelsArguments};
 use crate::failure::Failure;
-use crate::files::{
-    bytes, check_directory, check_format, directory_of, file_name, make_directory, read, write,
-};
+use crate::files::{bytes, check_directory_but, check_format, file_name, make_directory, read, write};
 use crate::progress::Progress;
 use crate::report::{
     self, LevelReport, LevelsReport, NestedReport, ProgressiveReport, grouped, significant, table,
@@ -33,10 +31,7 @@ pub(crate) fn run(arguments: &LevelsArguments) -> Result<(), Failure> {
     }
     let paths = paths(arguments)?;
     for path in arguments.report.iter().chain(&arguments.progressive) {
-        // The directory of the levels is made later, and is as good as there.
-        if directory_of(path) != directory {
-            check_directory(path)?;
-        }
+        check_directory_but(path, directory)?;
     }
     let original = read(input, engine.weld())?;
 

@@ -104,11 +104,7 @@ fn draw(meshes: &[(&Mesh, &str)], path: &Path, progress: &Progress) -> Result<()
             subtitle: (*subtitle).to_owned(),
         })
         .collect();
-    let picture = progress
-        .during("drawing", |monitor| render::draw(&exhibits, WIDTH, monitor))
-        .map_err(|error| Failure::Unexpected(error.to_string()))?;
-    let png = picture.png().map_err(|error| Failure::Unexpected(error.to_string()))?;
-    report::write_atomically(path, &png)
+    render::write(&exhibits, WIDTH, path, progress)
 }
 
 /// The same mesh with +x up, as pictures have it, where it has +y.

@@ -4,6 +4,7 @@
 //! Meshes face the viewer with their +z axis, +x up, and are turned a little.
 
 use std::f32::consts::TAU;
+use std::path::Path;
 use std::time::Duration;
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
@@ -16,6 +17,10 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 use rayon::prelude::*;
 
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::report::write_atomically;
+
 /// A mesh to draw, and what to write below it.
 pub(crate) struct Exhibit<'a> {
     pub(crate) mesh: &'a Mesh,
@@ -24,9 +29,9 @@ pub(crate) struct Exhibit<'a> {
 }
 
 /// Rows of red, green, blue, from the top.
-pub(crate) struct Picture {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
+struct Picture {
+    width: usize,
+    height: usize,
     pixels: Vec<[u8; 3]>,
 }
 
@@ -63,8 +68,21 @@ const EDGE_WIDTH: f32 = 1.1;
 /// Share of the light that an edge takes away.
 const EDGE_INK: f32 = 0.62;
 
-/// Draws `exhibits` in a row. The first one sets the scale of all.
-pub(crate) fn draw(exhibits: &[Exhibit], width: usize, monitor: &mut Monitor) -> Result<Picture, Cancelled> {
+/// Draws `exhibits` in a row, and writes them as a PNG at `path`. The first one sets the scale of all.
+pub(crate) fn write(
+    exhibits: &[Exhibit],
+    width: usize,
+    path: &Path,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let picture = progress
+        .during("drawing", |monitor| draw(exhibits, width, monitor))
+        .map_err(|error| Failure::Unexpected(error.to_string()))?;
+    let png = picture.png().map_err(|error| Failure::Unexpected(error.to_string()))?;
+    write_atomically(path, &png)
+}
+
+fn draw(exhibits: &[Exhibit], width: usize, monitor: &mut Monitor) -> Result<Picture, Cancelled> {
     let scene = Scene::new(exhibits, width);
     let height = scene.height_in_pixels();
     let mut seen = Vec::with_capacity(width * height);
@@ -92,7 +110,7 @@ pub(crate) fn draw(exhibits: &[Exhibit], width: usize, monitor: &mut Monitor) ->
 
 impl Picture {
     /// The picture as a PNG file's bytes.
-    pub(crate) fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
+    fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Rgb);

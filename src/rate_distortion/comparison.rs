@@ -2,10 +2,9 @@
 
 use super::baselines::{self, Criterion, interpolation_errors};
 use super::decomposition::Decomposition;
-use super::distortion::distortions;
 use super::flow::{Certificate, NEVER};
 use super::height_field::HeightField;
-use super::lattice::{Collected, Lattice};
+use super::lattice::Lattice;
 use super::{Error, merging};
 use crate::monitor::Monitor;
 use crate::workers::Workers;
@@ -35,9 +34,7 @@ impl Decomposition {
         monitor.report(0.0)?;
         let lattice = Lattice::new(field);
         let layout = lattice.layout();
-        let collected = Collected::new(&lattice);
-        distortions(&collected, lattice.roots(), layout.levels(), &workers, monitor, 0.0..DELTAS)?;
-        let deltas = collected.into_deltas(&workers);
+        let deltas = lattice.deltas(&workers, monitor, 0.0..DELTAS)?;
         let errors = |criterion| match criterion {
             Criterion::Global => deltas.iter().map(|&delta| f64::from(delta)).collect(),
             Criterion::Local => {

@@ -3,11 +3,11 @@
 use std::sync::OnceLock;
 
 use super::Error;
-use super::distortion::{Place, distortions};
+use super::distortion::Place;
 use super::extract::{Extract, extract};
 use super::flow::{Certificate, Effort, NEVER, decibels, rank, solve};
 use super::height_field::HeightField;
-use super::lattice::{Collected, Lattice};
+use super::lattice::Lattice;
 use super::layout::Site;
 use super::max_error::{self, Left};
 use super::rate;
@@ -110,7 +110,7 @@ impl Decomposition {
         let workers = Workers::new(options.threads)?;
         monitor.report(0.0)?;
         let lattice = Lattice::new(field);
-        let deltas = Self::deltas(&lattice, &workers, monitor)?;
+        let deltas = lattice.deltas(&workers, monitor, 0.0..0.3)?;
         let effort = Effort { sweeps: options.sweeps, most: options.max_sweeps, gap: options.gap };
         let report = |done: f32| monitor.report(0.3 + 0.5 * done);
         let (slopes, certificate) = solve(lattice.layout(), &deltas, &effort, &workers, report)?;
@@ -141,7 +141,7 @@ impl Decomposition {
         let workers = Workers::new(options.threads)?;
         monitor.report(0.0)?;
         let lattice = Lattice::new(field);
-        let deltas = Self::deltas(&lattice, &workers, monitor)?;
+        let deltas = lattice.deltas(&workers, monitor, 0.0..0.3)?;
         let layout = lattice.layout();
         // What lies beyond the field costs what lies nearest in it does.
         let cost = |vertex: usize| {
@@ -154,12 +154,6 @@ impl Decomposition {
         let decomposition = Self::of_slopes(lattice, deltas, slopes, Certificate::none(), &workers);
         monitor.report(1.0)?;
         Ok(Self { costs: Some(by_vertex), ..decomposition })
-    }
-
-    fn deltas(lattice: &Lattice, workers: &Workers, monitor: &mut Monitor) -> Result<Vec<f32>, Error> {
-        let collected = Collected::new(lattice);
-        distortions(&collected, lattice.roots(), lattice.layout().levels(), workers, monitor, 0.0..0.3)?;
-        Ok(collected.into_deltas(workers))
     }
 
     /// The order of given slopes, none less than that of a child; finer levels first where slopes are equal.
@@ -231,10 +225,6 @@ impl Decomposition {
     /// has more. A few times as much work as for a maximum error alone, some twenty for an RMS.
     pub fn at_within(&self, detail: Detail, bound: f64) -> Result<Approximation, Error> {
         let bound = check_error("maximum error", bound)?;
-        let least = |is_enough: &dyn Fn(&Left) -> bool| {
-            let removed = last(self.removable, |removed| is_enough(&self.within(removed, bound)));
-            Ok(self.of_set(&self.within(removed, bound)))
-        };
         let few = |vertices: usize| {
             let count = |removed| self.extract_set(&self.within(removed, bound)).places.len();
             let removed = self.fewest_removed(vertices, self.removed_for(vertices), count);
@@ -249,7 +239,8 @@ impl Decomposition {
             }
             Detail::Rms(rms) => {
                 let limit = self.squared(rms)?;
-                least(&|left| self.squared_error_of(left) <= limit)
+                let is_enough = |removed| self.squared_error_of(&self.within(removed, bound)) <= limit;
+                Ok(self.of_set(&self.within(last(self.removable, is_enough), bound)))
             }
         }
     }

@@ -6,7 +6,7 @@
 use hashbrown::HashMap;
 
 use super::distortion::{Half, Place, VOID};
-use super::height_field::HeightField;
+use super::height_field::{Grid, HeightField};
 use super::lattice::Lattice;
 use crate::mesh::{Attributes, Mesh};
 
@@ -111,26 +111,14 @@ impl Extract {
 
     /// As a mesh in space, with texture coordinates.
     pub(crate) fn to_mesh(&self, field: &HeightField) -> Mesh {
-        mesh_over(field, &self.places, &self.heights, self.triangles.clone())
+        mesh_over(field.grid(), &self.places, &self.heights, self.triangles.clone())
     }
 }
 
-/// A mesh in space, with texture coordinates, of vertices that stand over samples of a field.
-pub(crate) fn mesh_over(
-    field: &HeightField,
-    places: &[Place],
-    heights: &[f32],
-    triangles: Vec<[u32; 3]>,
-) -> Mesh {
-    let split = |&[x, y]: &Place| (x as usize, y as usize);
-    let positions = places.iter().zip(heights).map(|(place, &height)| {
-        let (column, row) = split(place);
-        field.position(column, row, height)
-    });
-    let uvs = places.iter().map(|place| {
-        let (column, row) = split(place);
-        field.uv(column, row)
-    });
+/// A mesh in space, with texture coordinates, of vertices that stand over samples of a grid.
+pub(crate) fn mesh_over(grid: Grid, places: &[Place], heights: &[f32], triangles: Vec<[u32; 3]>) -> Mesh {
+    let positions = places.iter().zip(heights).map(|(&place, &height)| grid.position(place, height));
+    let uvs = places.iter().map(|&place| grid.uv(place));
     let attributes = Attributes { uvs: Some(uvs.collect()), ..Attributes::default() };
     Mesh::with_attributes(positions.collect(), triangles, attributes)
         .expect("heights and spacing are finite, and triangles name vertices there are")

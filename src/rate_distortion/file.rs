@@ -9,10 +9,9 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use super::decomposition::Decomposition;
-use super::distortion::distortions;
 use super::flow::{Certificate, Class, Flow, NEVER};
 use super::height_field::HeightField;
-use super::lattice::{Collected, Lattice};
+use super::lattice::Lattice;
 use super::layout::Layout;
 use crate::io::source::Source;
 use crate::io::{FileError, ReadError, WriteError, replace};
@@ -101,10 +100,8 @@ fn read(source: &mut Source) -> Result<Decomposition, ReadError> {
     if let Some(vertex) = raised.iter().zip(&slopes).position(|(raised, slope)| raised != slope) {
         return Err(source.error_here(format!("vertex {vertex} goes before another that hangs on it")));
     }
-    let collected = Collected::new(&lattice);
-    distortions(&collected, lattice.roots(), layout.levels(), &workers, &mut Monitor::silent(), 0.0..1.0)
-        .map_err(|error| unexpected(&error))?;
-    let deltas = collected.into_deltas(&workers);
+    let deltas =
+        lattice.deltas(&workers, &mut Monitor::silent(), 0.0..1.0).map_err(|error| unexpected(&error))?;
     if let Some(vertex) = (0..slopes.len()).find(|&vertex| deltas[vertex] >= NEVER && slopes[vertex] < NEVER)
     {
         let problem = format!("vertex {vertex} goes, which would leave triangles over voids");

@@ -59,13 +59,9 @@ impl Flow {
         flow
     }
 
-    /// Levels all stars once, from the finest to the coarsest.
-    pub(crate) fn sweep_up(&mut self, hierarchy: &impl Hierarchy, workers: &Workers) {
+    /// Levels all stars twice, from the finest to the coarsest and back.
+    pub(crate) fn sweep_twice(&mut self, hierarchy: &impl Hierarchy, workers: &Workers) {
         self.up::<Level>(hierarchy, workers);
-    }
-
-    /// Levels all stars once, from the coarsest to the finest.
-    pub(crate) fn sweep_down(&mut self, hierarchy: &impl Hierarchy, workers: &Workers) {
         (1..hierarchy.levels()).for_each(|level| hierarchy.stars::<Level>(level, self, workers));
     }
 
@@ -433,8 +429,7 @@ pub(crate) fn solve<E>(
     let mut done = 0;
     loop {
         for _ in 0..effort.sweeps.div_ceil(2).max(1) {
-            flow.sweep_up(hierarchy, workers);
-            flow.sweep_down(hierarchy, workers);
+            flow.sweep_twice(hierarchy, workers);
             done += 2;
             report(done as f32 / effort.most.max(done) as f32)?;
         }

@@ -133,16 +133,31 @@ impl HeightField {
             })
     }
 
+    /// Where its samples lie.
+    pub(super) fn grid(&self) -> Grid {
+        Grid { size: [self.columns, self.rows], spacing: self.spacing }
+    }
+}
+
+/// Samples in columns and rows, in space and in an image.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Grid {
+    pub(super) size: [usize; 2],
+    pub(super) spacing: [f32; 2],
+}
+
+impl Grid {
     /// Where something `height` high stands at a sample: east, north, up, the south-west corner at the origin.
-    pub fn position(&self, column: usize, row: usize, height: f32) -> [f32; 3] {
-        let [dx, dy] = self.spacing;
-        [column as f32 * dx, (self.rows - 1 - row) as f32 * dy, height]
+    pub(super) fn position(&self, [column, row]: [u32; 2], height: f32) -> [f32; 3] {
+        let ([_, rows], [dx, dy]) = (self.size, self.spacing);
+        [column as f32 * dx, (rows - 1 - row as usize) as f32 * dy, height]
     }
 
     /// Texture coordinates of a sample, 0 to 1, for an image with a pixel in the middle of which each sample
     /// lies: `u` east, `v` north.
-    pub fn uv(&self, column: usize, row: usize) -> [f32; 2] {
-        let part = |index: usize, count: usize| (index as f32 + 0.5) / count as f32;
-        [part(column, self.columns), 1.0 - part(row, self.rows)]
+    pub(super) fn uv(&self, [column, row]: [u32; 2]) -> [f32; 2] {
+        let part = |index: u32, count: usize| (index as f32 + 0.5) / count as f32;
+        let [columns, rows] = self.size;
+        [part(column, columns), 1.0 - part(row, rows)]
     }
 }

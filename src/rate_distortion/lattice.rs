@@ -3,9 +3,10 @@
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use super::distortion::{Field, Half, Place, VALID, VOID};
+use super::distortion::{Field, Half, Place, VALID, VOID, distortions};
 use super::height_field::HeightField;
 use super::layout::Layout;
+use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
 
 /// The samples of a layout, with a field on them.
@@ -103,6 +104,21 @@ impl Lattice {
         }
     }
 
+    /// The change of distortion of each vertex, by number, over [`Lattice::squared_unit`]; infinite for those that
+    /// must not go. `share` is the part of the monitor's way that this is.
+    pub(crate) fn deltas(
+        &self,
+        workers: &Workers,
+        monitor: &mut Monitor,
+        share: std::ops::Range<f32>,
+    ) -> Result<Vec<f32>, Cancelled> {
+        let collected = Collected::new(self);
+        distortions(&collected, self.roots(), self.layout.levels(), workers, monitor, share)?;
+        let [first, second] = &collected.sides;
+        let value = |bits: &AtomicU32| f32::from_bits(bits.load(Relaxed));
+        Ok(workers.list(first.len(), |vertex| value(&first[vertex]) + value(&second[vertex])))
+    }
+
     /// The two triangles of each base quad.
     pub(crate) fn roots(&self) -> Vec<Half> {
         let [across, down] = self.layout.base();
@@ -135,7 +151,6 @@ pub(crate) fn units((low, high): (f32, f32), importance: Option<&[f32]>) -> [f64
 /// What stands at a place depends on its own row and column alone, so that tiles agree on their common edges.
 fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
     let (columns, rows) = (field.columns(), field.rows());
-    let or_zero = |height: f32| if height.is_nan() { 0.0 } else { height };
     let mut heights = vec![0.0; width * height];
     for y in 0..rows {
         let known = &field.heights()[y * columns..][..columns];
@@ -145,13 +160,11 @@ fn filled(field: &HeightField, width: usize, height: usize) -> Vec<f32> {
     }
     for x in 0..width {
         // Columns beyond the right edge are turned about the lower one as they are there.
-        let is_void = |y: usize| x < columns && field.is_void(x, y);
-        let column: Vec<f32> =
-            (0..rows).map(|y| if is_void(y) { f32::NAN } else { heights[y * width + x] }).collect();
+        let column: Vec<f32> = (0..rows).map(|y| heights[y * width + x]).collect();
         let turned = Turned::new(rows, |y| column[y]);
         (rows..height).for_each(|y| heights[y * width + x] = turned.at(y));
     }
-    heights.iter_mut().for_each(|height| *height = or_zero(*height));
+    heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = 0.0);
     heights
 }
 
@@ -184,7 +197,7 @@ impl<F: Fn(usize) -> f32> Turned<F> {
 }
 
 /// A lattice that collects the changes of distortion of its vertices.
-pub(crate) struct Collected<'a> {
+struct Collected<'a> {
     lattice: &'a Lattice,
     width: usize,
     heights: &'a [f32],
@@ -197,7 +210,7 @@ pub(crate) struct Collected<'a> {
 }
 
 impl<'a> Collected<'a> {
-    pub(crate) fn new(lattice: &'a Lattice) -> Self {
+    fn new(lattice: &'a Lattice) -> Self {
         let zeros = || (0..lattice.layout.vertices()).map(|_| AtomicU32::new(0)).collect();
         Self {
             lattice,
@@ -207,13 +220,6 @@ impl<'a> Collected<'a> {
             is_plain: lattice.fits() && lattice.field.importance().is_none(),
             sides: [zeros(), zeros()],
         }
-    }
-
-    /// The change of distortion of each vertex, by number, over [`Lattice::squared_unit`].
-    pub(crate) fn into_deltas(self, workers: &Workers) -> Vec<f32> {
-        let [first, second] = &self.sides;
-        let value = |bits: &AtomicU32| f32::from_bits(bits.load(Relaxed));
-        workers.list(first.len(), |vertex| value(&first[vertex]) + value(&second[vertex]))
     }
 }
 

@@ -6,10 +6,10 @@ use proptest::prelude::*;
 
 use super::brute_force::exhaustive;
 use super::decomposition::{Decomposition, DecompositionOptions, Detail};
-use super::distortion::{Half, Place, distortions};
+use super::distortion::{Half, Place};
 use super::extract::{Extract, extract};
 use super::height_field::HeightField;
-use super::lattice::{Collected, Lattice};
+use super::lattice::Lattice;
 use super::layout::{Layout, Site};
 use super::max_error;
 use super::tiles::{InMemory, TileMesh, TileOptions, Tiles};
@@ -41,11 +41,7 @@ fn decompose(field: HeightField, threads: usize) -> Decomposition {
 }
 
 fn deltas(lattice: &Lattice) -> Vec<f32> {
-    let collected = Collected::new(lattice);
-    let levels = lattice.layout().levels();
-    let silent = &mut Monitor::silent();
-    distortions(&collected, lattice.roots(), levels, &Workers::Caller, silent, 0.0..1.0).unwrap();
-    collected.into_deltas(&Workers::Caller)
+    lattice.deltas(&Workers::Caller, &mut Monitor::silent(), 0.0..1.0).unwrap()
 }
 
 /// A triangle of places with heights, from which barycentric coordinates are taken in the plainest way.

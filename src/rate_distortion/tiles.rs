@@ -11,14 +11,14 @@ use std::sync::Mutex;
 use hashbrown::HashMap;
 
 use super::Error;
-use super::distortion::{Place, distortions};
-use super::extract::extract;
-use super::flow::{Effort, Flow, NEVER, of_rank, rank, solve};
-use super::height_field::HeightField;
-use super::lattice::{Collected, Lattice, units};
+use super::distortion::Place;
+use super::extract::{extract, mesh_over};
+use super::flow::{Flow, NEVER, of_rank, rank};
+use super::height_field::{Grid, HeightField};
+use super::lattice::{Lattice, units};
 use super::layout::{Layout, Site};
 use super::vertical::measure;
-use crate::mesh::{Attributes, Mesh};
+use crate::mesh::Mesh;
 use crate::monitor::Monitor;
 use crate::workers::Workers;
 
@@ -227,12 +227,13 @@ impl<'a> Tiles<'a> {
 
     /// Solves the tiles apart, and puts together what is found on borders. How many samples are not void.
     fn solve(&self, sweeps: u32, borders: &mut Borders, monitor: &mut Monitor) -> Result<usize, Error> {
-        let effort = Effort { sweeps, most: sweeps, gap: 0.0 };
         let alone = |_: &Borders, tile: usize| {
             let Some(lattice) = self.lattice(tile)? else { return Ok((0, Vec::new())) };
-            let slopes =
-                solve(&self.layout, &deltas(&lattice)?, &effort, &Workers::Caller, |_| Ok::<(), Error>(()))?
-                    .0;
+            let deltas = lattice.deltas(&Workers::Caller, &mut Monitor::silent(), 0.0..1.0)?;
+            // As `flow::solve`, but for the proof, which nobody asks for.
+            let mut flow = Flow::new(&self.layout, &deltas, &Workers::Caller);
+            (0..sweeps.div_ceil(2).max(1)).for_each(|_| flow.sweep_twice(&self.layout, &Workers::Caller));
+            let slopes = flow.raised(&self.layout, &Workers::Caller);
             self.store.put(tile, &slopes).map_err(|error| self.lost(tile, &error))?;
             let owned = |row: usize, column: usize| self.owns(tile, [column, row]);
             let columns = lattice.field().columns();
@@ -338,17 +339,8 @@ impl<'a> Tiles<'a> {
         if block.triangles.is_empty() {
             return Ok(None);
         }
-        let ([columns, rows], [dx, dy]) = (self.source.size(), self.source.spacing());
-        let positions = block
-            .places
-            .iter()
-            .zip(&block.heights)
-            .map(|(&[x, y], &height)| [x as f32 * dx, (rows - 1 - y as usize) as f32 * dy, height]);
-        let part = |at: u32, count: usize| (at as f32 + 0.5) / count as f32;
-        let uvs = block.places.iter().map(|&[x, y]| [part(x, columns), 1.0 - part(y, rows)]);
-        let attributes = Attributes { uvs: Some(uvs.collect()), ..Attributes::default() };
-        let mesh = Mesh::with_attributes(positions.collect(), block.triangles, attributes);
-        let mesh = mesh.expect("heights and spacing are finite, and triangles name vertices there are");
+        let grid = Grid { size: self.source.size(), spacing: self.source.spacing() };
+        let mesh = mesh_over(grid, &block.places, &block.heights, block.triangles);
         Ok(Some(TileMesh { mesh, squared_error: block.squared_error, max_error: block.max_error }))
     }
 
@@ -356,7 +348,7 @@ impl<'a> Tiles<'a> {
         let Some(lattice) = self.lattice(tile)? else { return Ok(()) };
         let slopes = self.store.get(tile).map_err(|error| self.lost(tile, &error))?;
         let is_left = |vertex: usize| slopes[vertex] > slope || slopes[vertex] >= NEVER;
-        let deltas = deltas(&lattice)?;
+        let deltas = lattice.deltas(&Workers::Caller, &mut Monitor::silent(), 0.0..1.0)?;
         let gone = deltas.iter().enumerate().filter(|&(vertex, _)| !is_left(vertex));
         let squared = gone.map(|(_, &delta)| f64::from(delta)).sum::<f64>() * lattice.squared_unit();
         block.squared_error += squared.max(0.0);
@@ -464,13 +456,6 @@ struct Block {
     triangles: Vec<[u32; 3]>,
     squared_error: f64,
     max_error: f64,
-}
-
-fn deltas(lattice: &Lattice) -> Result<Vec<f32>, Error> {
-    let collected = Collected::new(lattice);
-    let levels = lattice.layout().levels();
-    distortions(&collected, lattice.roots(), levels, &Workers::Caller, &mut Monitor::silent(), 0.0..1.0)?;
-    Ok(collected.into_deltas(&Workers::Caller))
 }
 
 fn class(slope: f32) -> usize {

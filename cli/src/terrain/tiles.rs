@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::arguments::TilesArguments;
 use crate::allocation::peak_bytes;
 use crate::failure::Failure;
-use crate::files::{check_format, directory_of, make_directory, write};
+use crate::files::{check_directory_but, check_format, make_directory, write};
 use crate::progress::Progress;
 use crate::report::{grouped, print, significant, table, write_json};
 
@@ -69,10 +69,7 @@ pub(crate) fn run(arguments: &TilesArguments) -> Result<(), Failure> {
     let TilesArguments { input, directory, common, format, .. } = arguments;
     check_format(&directory.join(format!("tile.{format}")))?;
     if let Some(path) = &common.report {
-        // The directory of the tiles is made later, and is as good as there.
-        if directory_of(path) != directory {
-            crate::files::check_directory(path)?;
-        }
+        check_directory_but(path, directory)?;
     }
     let source = open(arguments, input)?;
     make_directory(directory)?;

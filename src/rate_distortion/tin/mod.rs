@@ -68,7 +68,7 @@ const START: usize = 2;
 impl Tin {
     /// As a mesh over its field: east, north, up, with texture coordinates.
     pub fn to_mesh(&self, field: &HeightField) -> Mesh {
-        mesh_over(field, &self.samples, &self.heights, self.triangles.clone())
+        mesh_over(field.grid(), &self.samples, &self.heights, self.triangles.clone())
     }
 }
 
