@@ -1931,7 +1931,7 @@ decimesh_status decimesh_hierarchy_at(const struct decimesh_hierarchy *hierarchy
                                       struct decimesh_hierarchy_report *report);
 
 /**
- * A free triangulation of at most so many vertices: 2 to 6 decibels closer to the heights than what
+ * A free triangulation of at most so many vertices: 5 decibels or more closer to the heights than what
  * decimesh_hierarchy_at() gives with as many, but not nested in finer ones. With least_squares 1 its heights are
  * fitted to all samples, and are no longer those of samples themselves; with 0 they are.
  *

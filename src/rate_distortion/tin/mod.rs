@@ -51,7 +51,7 @@ pub struct Tin {
 
 impl Decomposition {
     /// A free triangulation of at most so many vertices, made of the mesh of twice as many: closer to the field than
-    /// the mesh of as many that [`Decomposition::at`] gives, by 2 to 6 decibels, but not nested in finer ones. With
+    /// the mesh of as many that [`Decomposition::at`] gives, by 5 decibels or more, but not nested in finer ones. With
     /// `least_squares` heights are fitted to the samples, and are no longer those of samples themselves.
     ///
     /// The rim of what is known is covered exactly, which may take more vertices than asked for. About linear in the
