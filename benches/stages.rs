@@ -20,18 +20,13 @@ fn passes(criterion: &mut Criterion) {
     // 1.1 million triangles: larger than the caches.
     let mesh = bumpy_sphere(304, 1);
     let load = |ratio, threads| Stages::load(&mesh, ratio, threads).expect("threads start");
-    let unclassified = |ratio, threads| {
+    let classified = |ratio, threads| {
         let mut stages = load(ratio, threads);
-        stages.build_rings();
-        stages
-    };
-    let ringed = |ratio, threads| {
-        let mut stages = unclassified(ratio, threads);
         stages.classify();
         stages
     };
     let passed = |ratio, threads| {
-        let mut stages = ringed(ratio, threads);
+        let mut stages = classified(ratio, threads);
         // Nobody cancels.
         let _ = stages.threshold_pass();
         stages
@@ -43,14 +38,13 @@ fn passes(criterion: &mut Criterion) {
         group.bench_function(id("load"), |bencher| {
             bencher.iter_batched(|| (), |()| load(0.1, threads), BatchSize::PerIteration);
         });
-        stage(&mut group, id("build rings"), || load(0.1, threads), Stages::build_rings);
-        stage(&mut group, id("classify"), || unclassified(0.1, threads), Stages::classify);
-        stage(&mut group, id("threshold pass"), || ringed(0.1, threads), Stages::threshold_pass);
-        stage(&mut group, id("ranked pass"), || ringed(0.97, threads), Stages::ranked_pass);
+        stage(&mut group, id("classify"), || load(0.1, threads), Stages::classify);
+        stage(&mut group, id("threshold pass"), || classified(0.1, threads), Stages::threshold_pass);
+        stage(&mut group, id("ranked pass"), || classified(0.97, threads), Stages::ranked_pass);
         stage(&mut group, id("compact"), || passed(0.1, threads), Stages::compact);
     }
     let replacement = |stages: &mut Stages| stages.replacement_pass(RECORDS);
-    stage(&mut group, "replacement pass", || ringed(0.1, 1), replacement);
+    stage(&mut group, "replacement pass", || classified(0.1, 1), replacement);
     stage(&mut group, "to mesh", || passed(0.1, 1), |stages| stages.to_mesh());
     group.finish();
 }
@@ -60,7 +54,6 @@ fn finish(criterion: &mut Criterion) {
     let mesh = bumpy_sphere(76, 1);
     let ringed = || {
         let mut stages = Stages::load(&mesh, 0.7, 1).expect("a thread is there");
-        stages.build_rings();
         stages.classify();
         stages
     };

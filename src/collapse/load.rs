@@ -1,6 +1,6 @@
 //! How a mesh becomes a surface: its scale, and its faces in a good order.
 
-use super::surface::Face;
+use super::surface::{Face, are_coherent};
 use crate::mesh::Mesh;
 use crate::workers::Workers;
 use glam::Vec3;
@@ -8,6 +8,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Faces looked at for the scale.
 const SAMPLES: usize = 1024;
+
+/// Triangles are in good order if those that follow each other have vertices this near: as many as a tile has.
+const REACH: u32 = 16384;
 
 /// A power of two that makes edges about one unit long: products of four of them and more then
 /// neither overflow nor vanish in single precision, however fine or large the mesh.
@@ -53,8 +56,9 @@ pub(super) struct Faces {
     pub(super) wedges: Vec<Face>,
 }
 
-/// The triangles that are `whole`, `renamed`, and if there is a rank sorted into buckets of 64 vertices by
-/// their first corner, so that faces lie in memory as their vertices do. `wedges` are those of the corners
+/// The triangles that are `whole`, `renamed`, and if there is a rank, or they lie in no order that the vertices
+/// have, sorted into buckets of 64 vertices by their first corner, so that faces lie in memory as their
+/// vertices do. `wedges` are those of the corners
 /// of all triangles.
 pub(super) fn ordered_faces(
     triangles: &[[u32; 3]],
@@ -72,7 +76,7 @@ pub(super) fn ordered_faces(
         faces.resize_with(count, Face::default);
         faces
     };
-    if !is_ranked {
+    if !is_ranked && are_coherent(triangles, &renamed, REACH) {
         let mut faces = Vec::with_capacity(count);
         let named = |triangle: &[u32; 3]| triangle.map(|vertex| AtomicU32::new(renamed(vertex)));
         faces.extend(triangles.iter().filter(|triangle| whole(triangle)).map(named));

@@ -138,7 +138,6 @@ proptest! {
     #[test]
     fn boundary_against_counting(mesh in prop_oneof![torn(), dirty()], lock in any::<bool>()) {
         let mut surface = Surface::new(&mesh, &Setting::default(), &Workers::Caller);
-        surface.build_rings(&Workers::Caller);
         let unreferenced = surface.classify(lock, &Workers::Caller);
         let sides = sides(&mesh);
         let used: BTreeSet<u32> = sides.keys().flatten().copied().collect();

@@ -7,11 +7,12 @@
 
 use super::half_edge::{self, Terms};
 use super::ring::Ring;
-use super::surface::{Face, NONE, flag, is_alive, neighbours};
+use super::surface::{Face, NONE, Rings, flag, is_alive, neighbours};
 use super::wedges::Wedges;
 use super::{Collapse, Counts, Edge, HalfEdge, Rules};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::ops::Range;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Rings with more faces are left to the final heap: the pairwise comparison of two rings in the
 /// link condition is quadratic.
@@ -26,6 +27,7 @@ pub(crate) struct Tile<'a> {
     first: u32,
     columns: Columns<'a>,
     shared: Shared<'a>,
+    rings: Rings,
     /// What was collapsed, in the names of the input's vertices, where that is tracked.
     collapses: Option<Vec<HalfEdge>>,
 }
@@ -46,8 +48,8 @@ pub(crate) struct Columns<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) faces: &'a [Face],
-    pub(crate) offsets: &'a [u32],
-    pub(crate) incidence: &'a [AtomicU32],
+    /// The vertices of blocks of them; empty where all may be anywhere.
+    pub(crate) spans: &'a [Range<u32>],
     pub(crate) terms: Terms<'a>,
 }
 
@@ -93,7 +95,7 @@ impl<'a> Columns<'a> {
 impl<'a> Tile<'a> {
     /// A tile of all vertices, that remembers its collapses if they are `tracked`.
     pub(crate) fn new(columns: Columns<'a>, shared: Shared<'a>, tracked: bool) -> Self {
-        Self { first: 0, columns, shared, collapses: tracked.then(Vec::new) }
+        Self { first: 0, columns, shared, rings: Rings::default(), collapses: tracked.then(Vec::new) }
     }
 
     /// Two tiles, the second from vertex `cut` on.
@@ -101,9 +103,14 @@ impl<'a> Tile<'a> {
         let Self { first, shared, collapses, .. } = self;
         let [columns, after] = self.columns.split(cut - first as usize);
         [
-            Self { first, columns, shared, collapses: collapses.clone() },
-            Self { first: cut as u32, columns: after, shared, collapses },
+            Self { first, columns, shared, rings: Rings::default(), collapses: collapses.clone() },
+            Self { first: cut as u32, columns: after, shared, rings: Rings::default(), collapses },
         ]
+    }
+
+    /// Finds the rings of the tile's vertices, which what follows needs.
+    pub(crate) fn find_rings(&mut self) {
+        self.rings = Rings::new(self.shared.faces, self.shared.spans, self.vertices());
     }
 
     /// What was collapsed, if that was tracked.
@@ -112,7 +119,7 @@ impl<'a> Tile<'a> {
     }
 
     /// The tile's vertices.
-    pub(crate) fn vertices(&self) -> std::ops::Range<u32> {
+    pub(crate) fn vertices(&self) -> Range<u32> {
         self.first..self.first + self.columns.points.len() as u32
     }
 
@@ -144,10 +151,10 @@ impl<'a> Tile<'a> {
             .map(|&point| Vec3A::from_vec4(point))
     }
 
+    /// The corners around `vertex` when the pass began. Needs the rings.
     #[inline(always)]
-    fn corners(&self, vertex: u32) -> &'a [AtomicU32] {
-        let Shared { offsets, incidence, .. } = self.shared;
-        &incidence[offsets[vertex as usize] as usize..offsets[vertex as usize + 1] as usize]
+    pub(crate) fn corners(&self, vertex: u32) -> &[u32] {
+        self.rings.around(vertex)
     }
 
     /// How many faces the ring of `vertex` had when the pass began.
@@ -155,17 +162,16 @@ impl<'a> Tile<'a> {
         self.corners(vertex).len()
     }
 
-    /// Gathers the ring of `vertex`; `false` if it leaves the tile or is too large.
+    /// Gathers the ring of `vertex`, of which the `corners` are given; `false` if it leaves the tile or is too
+    /// large.
     #[inline(always)]
-    pub(crate) fn gather(&self, vertex: u32, ring: &mut Ring) -> bool {
-        let corners = self.corners(vertex);
+    pub(crate) fn gather(&self, vertex: u32, corners: &[u32], ring: &mut Ring) -> bool {
         let (Some(origin), true) = (self.position(vertex), corners.len() <= MAX_DEGREE) else {
             return false;
         };
         let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
         ring.gather(vertex, boundary, corners.len(), |ring| {
-            for corner in corners {
-                let corner = corner.load(Relaxed);
+            for &corner in corners {
                 if !is_alive(&self.shared.faces[(corner >> 2) as usize]) {
                     continue;
                 }
@@ -180,26 +186,31 @@ impl<'a> Tile<'a> {
         })
     }
 
-    /// The neighbour to which `scratch.source`, which has been gathered, goes most cheaply if neighbours do
-    /// not move, and the cost. What costs `limit` or more need not be found.
+    /// The neighbour to which `scratch.source`, which has been gathered of these `corners`, goes most cheaply if
+    /// neighbours do not move, and the cost. What costs `limit` or more need not be found.
     #[inline(always)]
-    pub(crate) fn cheapest_target(&self, limit: f32, scratch: &mut Scratch) -> Option<(f32, u32)> {
+    pub(crate) fn cheapest_target(
+        &self,
+        corners: &[u32],
+        limit: f32,
+        scratch: &mut Scratch,
+    ) -> Option<(f32, u32)> {
         let vertex = scratch.source.vertex;
         if self.shared.terms.are_none() {
             let factor = half_edge::factor(self.flags(vertex));
             return scratch.source.cheapest_target().map(|(cost, name)| (factor * cost, name));
         }
-        self.gather_corners(vertex, &mut scratch.half_edge.wedges.corners);
+        self.gather_corners(corners, &mut scratch.half_edge.wedges.corners);
         let Scratch { source, half_edge, .. } = scratch;
         let flags = |neighbour| self.flags(neighbour);
         self.shared.terms.cheapest(source, self.flags(vertex), flags, None, limit, half_edge)
     }
 
-    /// The living corners of a vertex, in the order of its ring.
-    fn gather_corners(&self, vertex: u32, corners: &mut Vec<u32>) {
+    /// The living ones of the corners around a vertex, in the order of its ring.
+    fn gather_corners(&self, all: &[u32], corners: &mut Vec<u32>) {
         corners.clear();
-        let all = self.corners(vertex).iter().map(|corner| corner.load(Relaxed));
-        corners.extend(all.filter(|corner| is_alive(&self.shared.faces[(corner >> 2) as usize])));
+        let is_alive = |corner: &u32| is_alive(&self.shared.faces[(corner >> 2) as usize]);
+        corners.extend(all.iter().copied().filter(is_alive));
     }
 
     /// What `vertex`, or one that was absorbed before, has absorbed next in this pass, or [`NONE`].
@@ -225,8 +236,7 @@ impl<'a> Tile<'a> {
         ring.gather_names(vertex, boundary, room, |names| {
             let mut member = vertex;
             while member != NONE {
-                for corner in self.corners(member) {
-                    let corner = corner.load(Relaxed);
+                for &corner in self.corners(member) {
                     if is_alive(&self.shared.faces[(corner >> 2) as usize]) {
                         names.push(neighbours(self.shared.faces, corner));
                     }
@@ -246,7 +256,8 @@ impl<'a> Tile<'a> {
         let gathered = if rules.half_edge {
             self.gather_names(target, scratch.source.next().len(), &mut scratch.target)
         } else {
-            self.columns.flags[into] & flag::USED == 0 && self.gather(target, &mut scratch.target)
+            self.columns.flags[into] & flag::USED == 0
+                && self.gather(target, self.corners(target), &mut scratch.target)
         };
         if !gathered {
             return None;
@@ -280,7 +291,7 @@ impl<'a> Tile<'a> {
         }
         let Scratch { source, half_edge, .. } = scratch;
         if !half_edge.has_chosen([source.vertex, target]) {
-            self.gather_corners(source.vertex, &mut half_edge.wedges.corners);
+            self.gather_corners(self.corners(source.vertex), &mut half_edge.wedges.corners);
         }
         let place = |vertex: u32| Vec3A::from_vec4(self.columns.points[(vertex - self.first) as usize]);
         let edge = place(target) - place(source.vertex);
@@ -291,8 +302,7 @@ impl<'a> Tile<'a> {
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
         let faces = self.shared.faces;
         let mut removed = 0;
-        for corner in self.corners(source) {
-            let corner = corner.load(Relaxed);
+        for &corner in self.corners(source) {
             let face = &faces[(corner >> 2) as usize];
             if !is_alive(face) {
                 continue;

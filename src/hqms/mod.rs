@@ -225,7 +225,6 @@ pub enum SimplifyError {
 pub fn simplify(mesh: &Mesh, options: &Options, monitor: &mut Monitor) -> Result<Simplified, SimplifyError> {
     let mut run = Run::new(mesh, options)?;
     let stopped_by = run.reach(options.target, 0.0..1.0, monitor)?;
-    run.drop_rings();
     run.result(stopped_by)
 }
 

@@ -68,7 +68,7 @@ impl Threshold {
         Self { passes: 0, yielded: 0.5, slow: false, productive: false, threshold: 0 }
     }
 
-    /// One pass over a surface with rings. Removes at most the goal's excess.
+    /// One pass. Removes at most the goal's excess.
     pub(crate) fn pass(
         &mut self,
         surface: &mut Surface,
@@ -98,7 +98,7 @@ impl Threshold {
         let single = vertices < 2 * TILE || self.slow;
         let shift = if self.passes % 2 == 1 { TILE / 2 } else { 0 };
         let cuts = (1..).map(|tile| tile * TILE - shift).take_while(|&cut| !single && cut < vertices);
-        let tiles = surface.tiles(cuts);
+        let tiles = surface.tiles(cuts, workers);
         let budgets = budgets(&tiles, &samples, threshold, goal, goal.excess(counts));
 
         let mut removed = Counts::default();
@@ -107,6 +107,7 @@ impl Threshold {
         while !work.is_empty() {
             let batch = work.drain(..BATCH.min(work.len())).collect();
             let sweep = |(mut tile, budget): (Tile, usize)| {
+                tile.find_rings();
                 let removed = sweep(&mut tile, threshold, goal, budget, rules);
                 (removed, tile.into_collapses())
             };
@@ -146,14 +147,15 @@ fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -
     } else {
         vertices.min(most)
     };
+    let rings = surface.sampled_rings(count, workers);
     let tile = &surface.whole();
     let blocks: Vec<_> = (0..count).step_by(1024).map(|first| first..(first + 1024).min(count)).collect();
     let of_blocks = workers.map(blocks, |block| {
         let mut scratch = Scratch::default();
         block
             .map(|index| {
-                let vertex = (index * vertices / count) as u32;
-                let cost = cost(tile, vertex, flag::BLOCKED, f32::INFINITY, rules, &mut scratch);
+                let (vertex, corners) = (rings.vertex(index), rings.around(index));
+                let cost = cost(tile, vertex, corners, flag::BLOCKED, f32::INFINITY, rules, &mut scratch);
                 (vertex, cost.map_or(UNUSABLE, |(cost, _)| cost))
             })
             .collect::<Vec<_>>()
@@ -187,24 +189,25 @@ fn as_cost(threshold: u32) -> f32 {
     f32::from_bits(threshold.min(f32::INFINITY.to_bits()))
 }
 
-/// The bits of the cheapest cost of a vertex that may be a source, and the neighbour it is at. What costs
-/// `limit` or more need not be found.
+/// The bits of the cheapest cost of a vertex that may be a source, which has these `corners`, and the neighbour
+/// it is at. What costs `limit` or more need not be found.
 #[inline(always)]
 fn cost(
     tile: &Tile,
     vertex: u32,
+    corners: &[u32],
     unusable: u8,
     limit: f32,
     rules: &Rules,
     scratch: &mut Scratch,
 ) -> Option<(u32, u32)> {
     if tile.flags(vertex) & (flag::USED | flag::DEAD | flag::LOCKED | unusable) != 0
-        || !tile.gather(vertex, &mut scratch.source)
+        || !tile.gather(vertex, corners, &mut scratch.source)
     {
         return None;
     }
     let cheapest = if rules.half_edge {
-        tile.cheapest_target(limit, scratch)
+        tile.cheapest_target(corners, limit, scratch)
     } else {
         scratch.source.cheapest_neighbour(|_| true)
     };
@@ -244,7 +247,8 @@ fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rul
         if spent + goal.step() > budget {
             break;
         }
-        let Some((cost, neighbour)) = cost(tile, vertex, 0, limit, rules, &mut scratch) else { continue };
+        let found = cost(tile, vertex, tile.corners(vertex), 0, limit, rules, &mut scratch);
+        let Some((cost, neighbour)) = found else { continue };
         tile.unblock(vertex);
         if cost >= threshold {
             continue;
@@ -283,15 +287,17 @@ pub(crate) fn ranked_pass(
     } else {
         f32::INFINITY
     };
+    let mut tile = surface.whole();
+    tile.find_rings();
     let mut candidates = Vec::new();
     {
-        let tile = &surface.whole();
+        let tile = &tile;
         let blocks: Vec<_> = tile.vertices().step_by(TILE).collect();
         let of_blocks = workers.map(blocks, |first| {
             let mut scratch = Scratch::default();
             let block = first..(first + TILE as u32).min(tile.vertices().end);
             let cost = |vertex| {
-                let (cost, _) = cost(tile, vertex, 0, limit, rules, &mut scratch)?;
+                let (cost, _) = cost(tile, vertex, tile.corners(vertex), 0, limit, rules, &mut scratch)?;
                 (cost < limit.to_bits()).then_some((cost, vertex))
             };
             block.filter_map(cost).collect::<Vec<_>>()
@@ -303,7 +309,6 @@ pub(crate) fn ranked_pass(
         candidates.truncate(enough);
     }
     candidates.sort_unstable();
-    let mut tile = surface.whole();
     let mut scratch = Scratch::default();
     let mut removed = Counts::default();
     let mut spent = 0;
@@ -311,7 +316,8 @@ pub(crate) fn ranked_pass(
         if spent >= goal.excess(counts) {
             break;
         }
-        if let Some((_, neighbour)) = cost(&tile, vertex, 0, f32::INFINITY, rules, &mut scratch)
+        let found = cost(&tile, vertex, tile.corners(vertex), 0, f32::INFINITY, rules, &mut scratch);
+        if let Some((_, neighbour)) = found
             && let Some(counts) = tile.collapse(neighbour, rules, &mut scratch)
         {
             removed.add(counts);

@@ -28,7 +28,7 @@ const BATCH: u32 = 1 << 18;
 /// A contraction record `C(r(v_i))`: the bits of its cost, the vertex and the neighbour.
 type Record = Reverse<(u32, u32, u32)>;
 
-/// One pass over a surface with rings; one level of approximation.
+/// One pass; one level of approximation.
 pub(crate) fn pass(
     surface: &mut Surface,
     records: usize,
@@ -38,6 +38,7 @@ pub(crate) fn pass(
     report: &mut dyn FnMut(Counts) -> Result<(), Cancelled>,
 ) -> Result<Counts, Cancelled> {
     let mut tile = surface.whole();
+    tile.find_rings();
     let mut scratch = Scratch::default();
     let mut heap: BinaryHeap<Record> = BinaryHeap::with_capacity(records.min(tile.vertices().len()) + 1);
     let mut removed = Counts::default();
@@ -82,7 +83,7 @@ fn is_unmodified(tile: &Tile, vertex: u32) -> bool {
 fn contraction(tile: &Tile, vertex: u32, rules: &Rules, scratch: &mut Scratch) -> Option<Record> {
     if !is_unmodified(tile, vertex)
         || tile.flags(vertex) & flag::LOCKED != 0
-        || !tile.gather(vertex, &mut scratch.source)
+        || !tile.gather(vertex, tile.corners(vertex), &mut scratch.source)
     {
         return None;
     }
@@ -90,7 +91,8 @@ fn contraction(tile: &Tile, vertex: u32, rules: &Rules, scratch: &mut Scratch) -
     let joined = |neighbour| tile.degree(vertex) + tile.degree(neighbour) - 2;
     let eligible = |neighbour| is_unmodified(tile, neighbour) && joined(neighbour) < MAXDEG;
     let (cost, neighbour) = if rules.half_edge {
-        tile.cheapest_target(f32::INFINITY, scratch).filter(|&(_, neighbour)| eligible(neighbour))?
+        tile.cheapest_target(tile.corners(vertex), f32::INFINITY, scratch)
+            .filter(|&(_, neighbour)| eligible(neighbour))?
     } else {
         scratch.source.cheapest_neighbour(eligible)?
     };
@@ -102,6 +104,6 @@ fn execute(tile: &mut Tile, record: Record, rules: &Rules, scratch: &mut Scratch
     let Reverse((_, source, target)) = record;
     let can = is_unmodified(tile, source)
         && is_unmodified(tile, target)
-        && tile.gather(source, &mut scratch.source);
+        && tile.gather(source, tile.corners(source), &mut scratch.source);
     if can { tile.collapse(target, rules, scratch).unwrap_or_default() } else { Counts::default() }
 }

@@ -90,7 +90,6 @@ impl<'a> Run<'a> {
         };
         let mut surface = Surface::new(mesh, &setting, &workers);
         drop((rank, places));
-        surface.build_rings(&workers);
         surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: surface.vertex_count() };
         let locked = surface.flags.iter().filter(|flags| *flags & flag::LOCKED != 0).count();
@@ -143,7 +142,6 @@ impl<'a> Run<'a> {
                 let rules = Rules { may_relax: false, ..rules };
                 self.retry(goal, checkpoint.clone(), |run| {
                     run.surface.cross_seams();
-                    run.surface.build_rings(&run.workers);
                     run.approach(goal, &rules, &mut None, &mut report)
                 })?;
             }
@@ -152,7 +150,6 @@ impl<'a> Run<'a> {
                 self.topology_changed |=
                     self.retry(goal, checkpoint, |run| run.finish(goal, &rules, &mut report))?;
             }
-            self.surface.build_rings(&self.workers);
         }
         monitor.report(share.end)?;
         Ok(match goal {
@@ -187,14 +184,12 @@ impl<'a> Run<'a> {
             self.recount(goal);
             self.passes += 1;
             report(self.counts)?;
-            self.surface.build_rings(&self.workers);
         }
         if goal.excess(self.counts) > 0 && (goal != Goal::Fewest || self.counts.vertices <= STUCK_VERTICES) {
             if rules.may_relax && checkpoint.is_none() {
                 *checkpoint = Some(self.checkpoint());
             }
             self.finish(goal, rules, report)?;
-            self.surface.build_rings(&self.workers);
         }
         Ok(())
     }
@@ -206,7 +201,7 @@ impl<'a> Run<'a> {
     }
 
     /// Makes an `attempt` from an earlier surface, and comes back if that leads no nearer to the goal; whether it
-    /// does. Rings are lost.
+    /// does.
     fn retry(
         &mut self,
         goal: Goal,
@@ -297,11 +292,6 @@ impl<'a> Run<'a> {
         if matches!(goal, Goal::Vertices(_)) && !self.surface.wedges.is_empty() {
             self.counts.vertices = self.surface.vertex_count();
         }
-    }
-
-    /// Frees memory that only a further [`reach`](Self::reach) would need.
-    pub(crate) fn drop_rings(&mut self) {
-        self.surface.drop_rings();
     }
 
     /// The surface as it is now.

@@ -22,9 +22,8 @@ const RULES: Rules = Rules {
     extent: [Vec3A::NEG_INFINITY, Vec3A::INFINITY],
 };
 
-/// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`], then for
-/// each pass [`Stages::build_rings`], [`Stages::classify`] (in the first pass only), one of the passes
-/// and [`Stages::compact`]; in the end [`Stages::finish`] and [`Stages::to_mesh`].
+/// A surface on its way to a goal, stage by stage, in the order of a run: [`Stages::load`],
+/// [`Stages::classify`], then for each pass one of the passes and [`Stages::compact`]; in the end [`Stages::finish`] and [`Stages::to_mesh`].
 pub struct Stages {
     surface: Surface,
     counts: Counts,
@@ -54,18 +53,13 @@ impl Stages {
         self.counts.faces
     }
 
-    /// Finds the faces around each vertex.
-    pub fn build_rings(&mut self) {
-        self.surface.build_rings(&self.workers);
-    }
-
-    /// Finds the border. Needs the rings.
+    /// Finds the border.
     pub fn classify(&mut self) {
         self.surface.classify(false, &self.workers);
         self.counts.vertices = self.surface.vertex_count();
     }
 
-    /// One pass of the default selection. Needs the rings.
+    /// One pass of the default selection.
     pub fn threshold_pass(&mut self) -> Result<(), Cancelled> {
         let Self { surface, counts, goal, workers, threshold } = self;
         let removed = threshold.pass(surface, *counts, *goal, &RULES, workers, &mut |_| Ok(()))?;
@@ -73,13 +67,13 @@ impl Stages {
         Ok(())
     }
 
-    /// One pass that takes the cheapest collapses in their order. Needs the rings.
+    /// One pass that takes the cheapest collapses in their order.
     pub fn ranked_pass(&mut self) {
         let removed = ranked_pass(&mut self.surface, self.counts, self.goal, &RULES, &self.workers);
         self.counts.remove(removed);
     }
 
-    /// One pass of the paper's replacement selection. Needs the rings.
+    /// One pass of the paper's replacement selection.
     pub fn replacement_pass(&mut self, records: usize) -> Result<(), Cancelled> {
         let Self { surface, counts, goal, .. } = self;
         let removed = replacement::pass(surface, records, *counts, *goal, &RULES, &mut |_| Ok(()))?;

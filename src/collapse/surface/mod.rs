@@ -1,9 +1,10 @@
 //! The mesh while it is being simplified: the one mutable copy, in few bytes.
 //!
-//! Per vertex 16 bytes of position and error, 1 of flags and 4 of offsets; per face 12 bytes of
-//! corners and 12 of incidence: about 35 bytes a triangle of a closed mesh. Offsets serve a second
-//! time as the map of [`Surface::compact`].
+//! Per vertex 16 bytes of position and error and 1 of flags, per face 12 bytes of corners: 21 bytes a triangle
+//! of a closed mesh. To that come, for a time, 4 bytes a vertex for [`Surface::classify`] or the map of
+//! [`Surface::compact`], and the rings of the tiles that are worked on.
 
+mod classify;
 mod compact;
 mod remains;
 mod rings;
@@ -21,6 +22,8 @@ use crate::mesh::{Attributes, Mesh};
 use crate::workers::Workers;
 use glam::{Vec3, Vec4};
 pub(crate) use remains::Remains;
+pub(crate) use rings::{Rings, SampledRings, are_coherent};
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Three corners. Atomic only so that tiles that work side by side may read the faces between
@@ -55,9 +58,6 @@ pub(crate) mod flag {
 
 /// Marks a vertex that has no successor.
 pub(crate) const NONE: u32 = u32::MAX;
-
-/// Vertices in a block of parallel work over vertices.
-const VERTEX_BLOCK: usize = 1 << 15;
 
 /// A surface at an earlier time.
 #[derive(Clone)]
@@ -130,9 +130,8 @@ pub(crate) struct Surface {
     /// where they have no weight.
     pub(crate) attribute_errors: Vec<f32>,
     cross_seams: bool,
-    /// Ring of `v`: `incidence[offsets[v]..offsets[v + 1]]`, as `face << 2 | corner`.
-    offsets: Vec<u32>,
-    incidence: Vec<Face>,
+    /// Of blocks of faces, while tiles look at them.
+    spans: Vec<Range<u32>>,
     /// Positions are multiplied by this power of two, and divided by it in the end.
     scale: f32,
 }
@@ -203,8 +202,7 @@ impl Surface {
             attribute_errors: if rows.is_some() { vec![0.0; count] } else { Vec::new() },
             rows,
             cross_seams: setting.cross_seams,
-            offsets: Vec::new(),
-            incidence: Vec::new(),
+            spans: Vec::new(),
             scale,
         }
     }
@@ -212,43 +210,6 @@ impl Surface {
     /// Positions are the input's times this.
     pub(crate) fn scale(&self) -> f32 {
         self.scale
-    }
-
-    /// Gives vertices their [`flag::BOUNDARY`], and locks them if asked; buries those without a
-    /// face, and counts these. Needs the rings.
-    pub(crate) fn classify(&mut self, lock_boundary: bool, workers: &Workers) -> usize {
-        let Self { faces, wedges, flags, offsets, incidence, merged, .. } = self;
-        let incidence = incidence.as_flattened();
-        let (faces, wedges, offsets) = (&faces[..], &wedges[..], &offsets[..]);
-        let wedge = |corner: &AtomicU32| {
-            let corner = corner.load(Relaxed);
-            wedges[(corner >> 2) as usize][(corner & 3) as usize].load(Relaxed)
-        };
-        let blocks: Vec<(usize, &mut [u8])> = flags.chunks_mut(VERTEX_BLOCK).enumerate().collect();
-        let unreferenced = workers.map(blocks, |(block, flags)| {
-            let first = block * VERTEX_BLOCK;
-            let mut unreferenced = 0;
-            for (flags, ends) in flags.iter_mut().zip(offsets[first..].windows(2)) {
-                let ring = &incidence[ends[0] as usize..ends[1] as usize];
-                if is_open(faces, ring.iter().map(|corner| corner.load(Relaxed))) {
-                    *flags |= flag::BOUNDARY | if lock_boundary { flag::LOCKED } else { 0 };
-                }
-                if !wedges.is_empty() && ring.windows(2).any(|pair| wedge(&pair[0]) != wedge(&pair[1])) {
-                    *flags |= flag::SEAM;
-                }
-                if ring.is_empty() {
-                    *flags |= flag::DEAD;
-                    unreferenced += 1;
-                }
-            }
-            unreferenced
-        });
-        for (merged, flags) in merged.iter_mut().zip(flags) {
-            if *flags & flag::DEAD != 0 {
-                *merged = NONE;
-            }
-        }
-        unreferenced.into_iter().sum()
     }
 
     /// How many vertices the result has.
@@ -281,13 +242,24 @@ impl Surface {
         terms(faces, wedges, sources.as_deref(), wedge_names, rows.as_ref(), *cross_seams)
     }
 
-    /// The whole surface as one tile.
+    /// The whole surface as one tile, without rings.
     pub(crate) fn whole(&mut self) -> Tile<'_> {
-        self.tiles(std::iter::empty()).remove(0)
+        self.spans.clear();
+        self.cut(std::iter::empty()).remove(0)
     }
 
-    /// The surface cut into tiles before each of the vertices `cuts`, which ascend.
-    pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
+    /// The surface cut into tiles before each of the vertices `cuts`, which ascend. Tiles have no rings yet.
+    pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>, workers: &Workers) -> Vec<Tile<'_>> {
+        self.spans = rings::spans(&self.faces, workers);
+        self.cut(cuts)
+    }
+
+    /// The rings of `count` vertices strided over all.
+    pub(crate) fn sampled_rings(&self, count: usize, workers: &Workers) -> SampledRings {
+        SampledRings::new(&self.faces, self.points.len(), count, workers)
+    }
+
+    fn cut(&mut self, cuts: impl Iterator<Item = usize>) -> Vec<Tile<'_>> {
         let Self { faces, wedges, sources, wedge_names, rows, cross_seams, .. } = self;
         let terms = terms(faces, wedges, sources.as_deref(), wedge_names, rows.as_ref(), *cross_seams);
         let Attributes { normals, colors, uvs } = &mut self.attributes;
@@ -301,8 +273,7 @@ impl Surface {
             colors: colors.as_deref_mut().unwrap_or_default(),
             uvs: uvs.as_deref_mut().unwrap_or_default(),
         };
-        let incidence = self.incidence.as_flattened();
-        let shared = Shared { faces, offsets: &self.offsets, incidence, terms };
+        let shared = Shared { faces, spans: &self.spans, terms };
         let whole = Tile::new(columns, shared, self.collapses.is_some());
         let mut tiles = vec![whole];
         for cut in cuts {
@@ -328,8 +299,6 @@ impl Surface {
         self.flags.shrink_to_fit();
         self.absorbed.shrink_to_fit();
         self.sources.iter_mut().for_each(Vec::shrink_to_fit);
-        self.offsets.shrink_to_fit();
-        self.incidence.shrink_to_fit();
     }
 
     /// What [`restore`](Self::restore) needs to come back to a compacted surface as it is.
@@ -347,7 +316,7 @@ impl Surface {
         }
     }
 
-    /// Back to a snapshot. Rings are lost.
+    /// Back to a snapshot.
     pub(crate) fn restore(&mut self, snapshot: Snapshot) {
         if self.origins.is_some() {
             self.merged = (0..snapshot.points.len() as u32).collect();
@@ -375,12 +344,6 @@ impl Surface {
     pub(crate) fn cross_seams(&mut self) {
         self.cross_seams = true;
         self.flags.iter_mut().for_each(|flags| *flags &= !flag::BLOCKED);
-    }
-
-    /// Gives the rings' memory back.
-    pub(crate) fn drop_rings(&mut self) {
-        self.offsets = Vec::new();
-        self.incidence = Vec::new();
     }
 }
 

@@ -1,88 +1,177 @@
 //! Which faces surround each vertex.
+//!
+//! The paper keeps the rings of all vertices through a pass. Here those of a tile are found when a thread
+//! comes to it, and forgotten with it: they lie in the cache while they are needed, are found by all threads
+//! at once, and 14 bytes a triangle, two fifths of all memory, are not needed at all.
 
-use super::{Face, NONE, Surface, VERTEX_BLOCK};
+use super::{Face, NONE, corners};
 use crate::workers::Workers;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::ops::Range;
+use std::sync::atomic::Ordering::Relaxed;
 
-/// Faces in a block of parallel work over faces.
-const FACE_BLOCK: usize = 1 << 15;
+/// Faces in a block of which the least and the largest vertex are noted.
+const FACE_BLOCK: usize = 2048;
 
-impl Surface {
-    /// Builds the rings, in time linear in the faces. Within a ring, corners are in face order.
-    pub(crate) fn build_rings(&mut self, workers: &Workers) {
-        let vertices = self.points.len();
-        let Self { faces, offsets, incidence, .. } = self;
-        offsets.clear();
-        offsets.resize(vertices + 1, 0);
-        if incidence.len() > faces.len() {
-            incidence.truncate(faces.len());
-        } else {
-            incidence.resize_with(faces.len(), Face::default);
+/// Blocks that one thread looks at in a go.
+const BLOCKS: usize = 16;
+
+/// The faces around some vertices, as corners `face << 2 | corner`, in compressed rows. Within a row, corners
+/// are in face order.
+#[derive(Debug, Default)]
+pub(crate) struct Rings {
+    first: u32,
+    /// The ring of `first + i`: `corners[offsets[i]..offsets[i + 1]]`.
+    offsets: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Rings {
+    /// The rings of the vertices of a range, in time linear in the faces of the blocks that have one of them
+    /// between their least and largest vertex: of all where no `spans` are given.
+    ///
+    /// Faces that have none of these vertices, and have none later, may change meanwhile.
+    pub(crate) fn new(faces: &[Face], spans: &[Range<u32>], vertices: Range<u32>) -> Self {
+        let first = vertices.start;
+        let own = vertices.len();
+        let mut offsets = vec![0u32; own + 1];
+        for (_, block) in touching(faces, spans, &vertices) {
+            for corner in block.iter().flatten() {
+                if let Some(degree) =
+                    offsets[..own].get_mut(corner.load(Relaxed).wrapping_sub(first) as usize)
+                {
+                    *degree += 1;
+                }
+            }
         }
-        // Each worker owns a range of vertices and passes over the faces; blocks of faces that do
-        // not touch its range are skipped, which in an ordered mesh is nearly all of them.
-        let ranges = if vertices > VERTEX_BLOCK { workers.count() } else { 1 };
-        let bound = |range: usize| range * vertices / ranges;
-        let spans: Vec<(u32, u32)> = if ranges == 1 {
-            vec![(0, NONE); faces.len().div_ceil(FACE_BLOCK)]
-        } else {
-            workers.map(faces.chunks(FACE_BLOCK).collect(), span)
-        };
-        let touching = |first: u32, last: u32| {
-            let blocks = faces.chunks(FACE_BLOCK).zip(&spans).enumerate();
-            blocks
-                .filter(move |(_, (_, span))| span.0 < last && span.1 >= first)
-                .map(|(index, (block, _))| (index * FACE_BLOCK, block))
-        };
-        let pieces = split(&mut offsets[..vertices], (1..ranges).map(bound));
-        let sums = workers.map(pieces.into_iter().enumerate().collect(), |(range, degrees)| {
-            let first = bound(range) as u32;
-            let own = degrees.len();
-            for (_, block) in touching(first, first + own as u32) {
-                for corner in block.iter().flatten() {
-                    if let Some(degree) = degrees.get_mut(corner.load(Relaxed).wrapping_sub(first) as usize) {
-                        *degree += 1;
+        let mut sum = 0;
+        // Each is the end of its ring first, and counts back while the ring is filled.
+        for offset in &mut offsets {
+            sum += *offset;
+            *offset = sum;
+        }
+        let mut corners = vec![0; sum as usize];
+        for (base, block) in touching(faces, spans, &vertices).rev() {
+            for (index, face) in block.iter().enumerate().rev() {
+                for (corner, vertex) in face.iter().enumerate() {
+                    let vertex = vertex.load(Relaxed).wrapping_sub(first) as usize;
+                    if let Some(end) = offsets[..own].get_mut(vertex) {
+                        *end -= 1;
+                        corners[*end as usize] = ((base + index) as u32) << 2 | corner as u32;
                     }
                 }
             }
-            // Offsets count back from the end of each ring while the rings are filled.
-            degrees.iter_mut().fold(0, |sum, degree| {
-                *degree += sum;
-                *degree
-            })
-        });
-        let starts: Vec<u32> =
-            sums.iter().scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect();
-        offsets[vertices] = sums.iter().sum();
-        let pieces = split(&mut offsets[..vertices], (1..ranges).map(bound));
-        let rings = split(incidence.as_flattened_mut(), starts.iter().skip(1).map(|&start| start as usize));
-        let pieces = pieces.into_iter().zip(rings).enumerate().collect();
-        workers.map(pieces, |(range, (offsets, ring)): (usize, (&mut [u32], &mut [AtomicU32]))| {
-            let first = bound(range) as u32;
-            let last = first + offsets.len() as u32;
-            let blocks: Vec<_> = touching(first, last).collect();
-            for (base, block) in blocks.into_iter().rev() {
-                for (index, face) in block.iter().enumerate().rev() {
-                    for (corner, vertex) in face.iter().enumerate() {
-                        let vertex = vertex.load(Relaxed).wrapping_sub(first) as usize;
-                        if let Some(end) = offsets.get_mut(vertex) {
-                            *end -= 1;
-                            *ring[*end as usize].get_mut() = ((base + index) as u32) << 2 | corner as u32;
-                        }
-                    }
-                }
-            }
-            for offset in offsets {
-                *offset += starts[range];
-            }
-        });
+        }
+        Self { first, offsets, corners }
+    }
+
+    /// The corners around `vertex`, which is one of the range.
+    #[inline(always)]
+    pub(crate) fn around(&self, vertex: u32) -> &[u32] {
+        let vertex = (vertex - self.first) as usize;
+        &self.corners[self.offsets[vertex] as usize..self.offsets[vertex + 1] as usize]
     }
 }
 
-/// The smallest and the largest vertex of the faces.
-fn span(faces: &[Face]) -> (u32, u32) {
-    let corners = faces.iter().flatten().map(|corner| corner.load(Relaxed));
-    corners.fold((NONE, 0), |(low, high), corner| (low.min(corner), high.max(corner)))
+/// The blocks of faces that may have one of `vertices`, and the first face of each.
+pub(super) fn touching<'a>(
+    faces: &'a [Face],
+    spans: &'a [Range<u32>],
+    vertices: &'a Range<u32>,
+) -> impl DoubleEndedIterator<Item = (usize, &'a [Face])> {
+    let touches = |block: usize| {
+        spans.get(block).is_none_or(|span| span.start < vertices.end && vertices.start < span.end)
+    };
+    let blocks = faces.chunks(FACE_BLOCK).enumerate();
+    blocks.filter(move |&(block, _)| touches(block)).map(|(block, faces)| (block * FACE_BLOCK, faces))
+}
+
+/// The least and the largest vertex of each block of faces, as a range.
+pub(super) fn spans(faces: &[Face], workers: &Workers) -> Vec<Range<u32>> {
+    let of_blocks = |faces: &[Face]| -> Vec<Range<u32>> {
+        faces.chunks(FACE_BLOCK).map(|block| span(block.iter().map(corners))).collect()
+    };
+    workers.map(faces.chunks(BLOCKS * FACE_BLOCK).collect(), of_blocks).concat()
+}
+
+/// Whether triangles that follow each other have vertices near each other, so that few blocks of them have
+/// a vertex of a given range of `reach` between their least and largest one: a sample of the blocks, as found
+/// by `renamed`, reaches over four ranges at most in the mean.
+pub(crate) fn are_coherent(triangles: &[[u32; 3]], renamed: impl Fn(u32) -> u32, reach: u32) -> bool {
+    const SAMPLES: usize = 256;
+    let stride = triangles.len().div_ceil(FACE_BLOCK * SAMPLES).max(1);
+    let blocks = triangles.chunks(FACE_BLOCK).step_by(stride);
+    let count = blocks.len() as u64;
+    let reached = |block: &[[u32; 3]]| {
+        let span = span(block.iter().map(|triangle| triangle.map(&renamed)));
+        u64::from(span.len() as u32 / reach)
+    };
+    blocks.map(reached).sum::<u64>() <= 4 * count
+}
+
+/// The vertices from the least to the largest corner.
+fn span(faces: impl Iterator<Item = [u32; 3]>) -> Range<u32> {
+    let (least, largest) =
+        faces.flatten().fold((NONE, 0), |(least, largest), corner| (least.min(corner), largest.max(corner)));
+    least..largest.saturating_add(1)
+}
+
+/// The corners around vertices strided over all of them, row by row: see [`Rings`].
+pub(crate) struct SampledRings {
+    vertices: usize,
+    count: usize,
+    offsets: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl SampledRings {
+    /// Those of `count` of the `vertices`, in time linear in the faces.
+    pub(super) fn new(faces: &[Face], vertices: usize, count: usize, workers: &Workers) -> Self {
+        let mut chosen = vec![0u64; vertices.div_ceil(64)];
+        let mut rings = Self { vertices, count, offsets: vec![0; count + 1], corners: Vec::new() };
+        (0..count).map(|index| rings.vertex(index)).for_each(|v| chosen[v as usize >> 6] |= 1 << (v & 63));
+        let length = BLOCKS * FACE_BLOCK;
+        let found = workers.map(faces.chunks(length).enumerate().collect(), |(chunk, faces)| {
+            let mut found = Vec::new();
+            for (index, face) in faces.iter().enumerate() {
+                for (corner, vertex) in corners(face).into_iter().enumerate() {
+                    if chosen[vertex as usize >> 6] >> (vertex & 63) & 1 != 0 {
+                        found.push((rings.index(vertex), ((chunk * length + index) << 2 | corner) as u32));
+                    }
+                }
+            }
+            found
+        });
+        for &(index, _) in found.iter().flatten() {
+            rings.offsets[index] += 1;
+        }
+        let mut sum = 0;
+        for offset in &mut rings.offsets {
+            sum += *offset;
+            *offset = sum;
+        }
+        rings.corners = vec![0; sum as usize];
+        for &(index, corner) in found.iter().flatten().rev() {
+            let end = &mut rings.offsets[index];
+            *end -= 1;
+            rings.corners[*end as usize] = corner;
+        }
+        rings
+    }
+
+    /// The vertex of a sample.
+    pub(crate) fn vertex(&self, index: usize) -> u32 {
+        (index * self.vertices / self.count) as u32
+    }
+
+    /// The sample of a vertex that is one.
+    fn index(&self, vertex: u32) -> usize {
+        (vertex as usize * self.count).div_ceil(self.vertices)
+    }
+
+    /// The corners around the vertex of a sample.
+    pub(crate) fn around(&self, index: usize) -> &[u32] {
+        &self.corners[self.offsets[index] as usize..self.offsets[index + 1] as usize]
+    }
 }
 
 /// Cuts a slice before each of `cuts`, which ascend.
