@@ -7,13 +7,12 @@
 use super::{Face, NONE, corners};
 use crate::workers::Workers;
 use std::ops::Range;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// Faces in a block of which the least and the largest vertex are noted.
-const FACE_BLOCK: usize = 2048;
+const FACE_BLOCK: usize = 256;
 
 /// Blocks that one thread looks at in a go.
-const BLOCKS: usize = 16;
+const BLOCKS: usize = 128;
 
 /// The faces around some vertices, as corners `face << 2 | corner`, in compressed rows. Within a row, corners
 /// are in face order.
@@ -31,14 +30,24 @@ impl Rings {
     ///
     /// Faces that have none of these vertices, and have none later, may change meanwhile.
     pub(crate) fn new(faces: &[Face], spans: &[Range<u32>], vertices: Range<u32>) -> Self {
-        let first = vertices.start;
-        let own = vertices.len();
+        let (first, own) = (vertices.start, vertices.len());
+        let mut near = Vec::new();
+        for (base, block) in touching(faces, spans, &vertices) {
+            let mut count = near.len();
+            near.resize(count + block.len(), 0);
+            // Written always and counted if near: a branch would miss.
+            for (face, index) in block.iter().zip(base as u32..) {
+                near[count] = index;
+                let is_own = |corner: u32| (corner.wrapping_sub(first) as usize) < own;
+                let [a, b, c] = corners(face).map(is_own);
+                count += usize::from(a | b | c);
+            }
+            near.truncate(count);
+        }
         let mut offsets = vec![0u32; own + 1];
-        for (_, block) in touching(faces, spans, &vertices) {
-            for corner in block.iter().flatten() {
-                if let Some(degree) =
-                    offsets[..own].get_mut(corner.load(Relaxed).wrapping_sub(first) as usize)
-                {
+        for &index in &near {
+            for corner in corners(&faces[index as usize]) {
+                if let Some(degree) = offsets[..own].get_mut(corner.wrapping_sub(first) as usize) {
                     *degree += 1;
                 }
             }
@@ -49,19 +58,16 @@ impl Rings {
             sum += *offset;
             *offset = sum;
         }
-        let mut corners = vec![0; sum as usize];
-        for (base, block) in touching(faces, spans, &vertices).rev() {
-            for (index, face) in block.iter().enumerate().rev() {
-                for (corner, vertex) in face.iter().enumerate() {
-                    let vertex = vertex.load(Relaxed).wrapping_sub(first) as usize;
-                    if let Some(end) = offsets[..own].get_mut(vertex) {
-                        *end -= 1;
-                        corners[*end as usize] = ((base + index) as u32) << 2 | corner as u32;
-                    }
+        let mut corners_around = vec![0; sum as usize];
+        for &index in near.iter().rev() {
+            for (corner, vertex) in (0..).zip(corners(&faces[index as usize])) {
+                if let Some(end) = offsets[..own].get_mut(vertex.wrapping_sub(first) as usize) {
+                    *end -= 1;
+                    corners_around[*end as usize] = index << 2 | corner;
                 }
             }
         }
-        Self { first, offsets, corners }
+        Self { first, offsets, corners: corners_around }
     }
 
     /// The corners around `vertex`, which is one of the range.
