@@ -26,6 +26,8 @@ const FINISH_RATIO_HALF_EDGE: f32 = 1.15;
 const FINISH_SHARE: usize = 16;
 /// ...and has at most so many vertices: its heap takes ten times as long as a pass.
 const FINISH_VERTICES: usize = 12_000;
+/// Fewer tiles than this are the work of one thread.
+const FEW_TILES: usize = 4;
 /// So few vertices are finished however far the goal is.
 const FEW_VERTICES: usize = 1000;
 /// A run may have to come back to where the surface was this many times larger than the goal.
@@ -67,7 +69,9 @@ impl<'a> Run<'a> {
         let half_edge = moves_no_vertex(options);
         let places = if half_edge && options.keep_seams { places(mesh) } else { None };
         let rank = rank(mesh, places.as_ref(), TILE / 8);
-        let workers = Workers::new(options.threads)?;
+        // Waking others takes longer than they would save.
+        let threads = if mesh.positions().len() < FEW_TILES * TILE { 1 } else { options.threads };
+        let workers = Workers::new(threads)?;
         let mut locked = options.locked.clone();
         if options.keep_seams && !half_edge {
             locked.extend(seams(mesh));
