@@ -58,7 +58,7 @@ mod workers;
 
 pub use hqms::{
     AttributeWeights, HalfEdge, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target,
-    Topology, build_levels, simplify,
+    Topology, build_levels, simplify, simplify_owned,
 };
 pub use lod::coarsest_within;
 pub use mesh::{Attributes, Mesh, MeshError};

@@ -8,7 +8,7 @@ use super::entry::entry;
 use super::simplify::{ReportPlace, decimesh_simplify_options, decimesh_simplify_report};
 use super::status::{DECIMESH_ERROR_TOO_LARGE, Failure, decimesh_status};
 use super::structs;
-use crate::hqms::{Options, Placement, Simplified, simplify};
+use crate::hqms::{Options, Placement, Simplified, simplify_owned};
 use crate::mesh::weld::shared_places;
 use std::ffi::c_void;
 
@@ -112,7 +112,7 @@ unsafe fn simplify_buffers(
         options.locked.extend(shared_places(&mesh));
     }
     options.track_sources = true;
-    let mut result = simplify(&mesh, &options, &mut monitor)?;
+    let mut result = simplify_owned(mesh, &options, &mut monitor)?;
     let places = result.sources.take().unwrap_or_default();
     Ok((result, places))
 }

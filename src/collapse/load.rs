@@ -4,6 +4,7 @@ use super::surface::{Face, are_coherent};
 use crate::mesh::Mesh;
 use crate::workers::Workers;
 use glam::Vec3;
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Faces looked at for the scale.
@@ -61,7 +62,7 @@ pub(super) struct Faces {
 /// vertices do. `wedges` are those of the corners
 /// of all triangles.
 pub(super) fn ordered_faces(
-    triangles: &[[u32; 3]],
+    triangles: Cow<[[u32; 3]]>,
     wedges: Option<&[[u32; 3]]>,
     vertices: usize,
     is_ranked: bool,
@@ -69,6 +70,28 @@ pub(super) fn ordered_faces(
     renamed: impl Fn(u32) -> u32 + Sync,
     workers: &Workers,
 ) -> Faces {
+    if !is_ranked && are_coherent(&triangles, &renamed, REACH) {
+        let chosen = |triangle: &usize| whole(&triangles[*triangle]);
+        let wedges = wedges.map_or(Vec::new(), |wedges| {
+            (0..triangles.len()).filter(chosen).map(|index| wedges[index].map(AtomicU32::new)).collect()
+        });
+        let face = |triangle: [u32; 3]| triangle.map(|vertex| AtomicU32::new(renamed(vertex)));
+        let faces = match triangles {
+            // In the memory that is there.
+            Cow::Owned(mut triangles) => {
+                triangles.retain(&whole);
+                triangles.into_iter().map(face).collect()
+            }
+            Cow::Borrowed(triangles) => {
+                let mut faces =
+                    Vec::with_capacity(triangles.iter().filter(|&triangle| whole(triangle)).count());
+                faces.extend(triangles.iter().copied().filter(&whole).map(face));
+                faces
+            }
+        };
+        return Faces { faces, wedges };
+    }
+    let triangles = &*triangles;
     let chosen = |triangle: &usize| whole(&triangles[*triangle]);
     let count = triangles.iter().filter(|triangle| whole(triangle)).count();
     let empty = |count: usize| {
@@ -76,15 +99,6 @@ pub(super) fn ordered_faces(
         faces.resize_with(count, Face::default);
         faces
     };
-    if !is_ranked && are_coherent(triangles, &renamed, REACH) {
-        let mut faces = Vec::with_capacity(count);
-        let named = |triangle: &[u32; 3]| triangle.map(|vertex| AtomicU32::new(renamed(vertex)));
-        faces.extend(triangles.iter().filter(|triangle| whole(triangle)).map(named));
-        let wedges = wedges.map_or(Vec::new(), |wedges| {
-            (0..triangles.len()).filter(chosen).map(|index| wedges[index].map(AtomicU32::new)).collect()
-        });
-        return Faces { faces, wedges };
-    }
     // Each worker counts and then places the triangles of a block; within a bucket, blocks follow
     // each other, so that the order is the same for any number of them.
     let bucket = |triangle: usize| (renamed(triangles[triangle][0]) >> 6) as usize;

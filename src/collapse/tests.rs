@@ -1,5 +1,6 @@
 //! The conditions of a collapse, against collapses that are carried out and looked at.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3A;
@@ -137,7 +138,7 @@ proptest! {
     /// A vertex is flagged if an edge of it has not as many faces in one direction as in the other.
     #[test]
     fn boundary_against_counting(mesh in prop_oneof![torn(), dirty()], lock in any::<bool>()) {
-        let mut surface = Surface::new(&mesh, &Setting::default(), &Workers::Caller);
+        let mut surface = Surface::new(Cow::Borrowed(&mesh), &Setting::default(), &Workers::Caller);
         let unreferenced = surface.classify(lock, &Workers::Caller);
         let sides = sides(&mesh);
         let used: BTreeSet<u32> = sides.keys().flatten().copied().collect();

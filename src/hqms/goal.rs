@@ -2,7 +2,6 @@
 
 use super::Target;
 use crate::collapse::Counts;
-use crate::mesh::Mesh;
 
 /// A target, in the units of the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,11 +13,12 @@ pub(crate) enum Goal {
 }
 
 impl Goal {
-    pub(crate) fn new(target: Target, mesh: &Mesh) -> Self {
+    /// For an input of so many `triangles`.
+    pub(crate) fn new(target: Target, triangles: usize) -> Self {
         match target {
             Target::Triangles(count) => Self::Faces(count),
             Target::Vertices(count) => Self::Vertices(count),
-            Target::Ratio(ratio) => Self::Faces((mesh.triangles().len() as f64 * ratio) as usize),
+            Target::Ratio(ratio) => Self::Faces((triangles as f64 * ratio) as usize),
             Target::MaxError(_) => Self::Fewest,
         }
     }

@@ -16,6 +16,7 @@ use crate::mesh::weld::seams;
 use crate::monitor::{Cancelled, Monitor};
 use crate::workers::Workers;
 use glam::Vec3A;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The finish begins when the surface is this many times larger than the goal...
@@ -51,7 +52,11 @@ const OVERSHOOT: f32 = 0.25;
 /// A simplification under way.
 pub(crate) struct Run<'a> {
     options: &'a Options,
-    input: &'a Mesh,
+    /// Needed to the end where no vertex moves, and only there.
+    input: Option<Cow<'a, Mesh>>,
+    /// Of the input.
+    triangles: usize,
+    vertices: usize,
     surface: Surface,
     counts: Counts,
     workers: Workers,
@@ -64,17 +69,18 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, options: &'a Options) -> Result<Self, SimplifyError> {
-        check(mesh, options)?;
+    /// A mesh of its own is given up as soon as it may be.
+    pub(crate) fn new(mesh: Cow<'a, Mesh>, options: &'a Options) -> Result<Self, SimplifyError> {
+        check(&mesh, options)?;
         let half_edge = moves_no_vertex(options);
-        let places = if half_edge && options.keep_seams { places(mesh) } else { None };
-        let rank = rank(mesh, places.as_ref(), TILE / 8);
+        let places = if half_edge && options.keep_seams { places(&mesh) } else { None };
+        let rank = rank(&mesh, places.as_ref(), TILE / 8);
         // Waking others takes longer than they would save.
         let threads = if mesh.positions().len() < FEW_TILES * TILE { 1 } else { options.threads };
         let workers = Workers::new(threads)?;
         let mut locked = options.locked.clone();
         if options.keep_seams && !half_edge {
-            locked.extend(seams(mesh));
+            locked.extend(seams(&mesh));
         }
         let setting = Setting {
             rank: rank.as_deref(),
@@ -92,7 +98,12 @@ impl<'a> Run<'a> {
             protected: &options.protected,
             prioritized: &options.prioritized,
         };
-        let mut surface = Surface::new(mesh, &setting, &workers);
+        let (triangles, vertices) = (mesh.triangles().len(), mesh.positions().len());
+        let (mut surface, input) = if half_edge {
+            (Surface::new(Cow::Borrowed(&mesh), &setting, &workers), Some(mesh))
+        } else {
+            (Surface::new(mesh, &setting, &workers), None)
+        };
         drop((rank, places));
         surface.classify(options.lock_boundary, &workers);
         let counts = Counts { faces: surface.faces.len(), vertices: surface.vertex_count() };
@@ -100,7 +111,9 @@ impl<'a> Run<'a> {
         let extent = if half_edge { [Vec3A::NEG_INFINITY, Vec3A::INFINITY] } else { extent(&surface) };
         Ok(Self {
             options,
-            input: mesh,
+            input,
+            triangles,
+            vertices,
             surface,
             counts,
             workers,
@@ -120,7 +133,7 @@ impl<'a> Run<'a> {
         monitor: &mut Monitor,
     ) -> Result<StoppedBy, SimplifyError> {
         check_target(target)?;
-        let goal = Goal::new(target, self.input);
+        let goal = Goal::new(target, self.triangles);
         let error_limit = match target {
             Target::MaxError(limit) => limit * self.surface.scale(),
             _ => f32::INFINITY,
@@ -228,7 +241,7 @@ impl<'a> Run<'a> {
     /// vertices are left that its order would lose corners.
     fn is_near(&self, goal: Goal) -> bool {
         let vertices = self.counts.vertices;
-        let is_small_part = vertices <= self.input.positions().len() / FINISH_SHARE;
+        let is_small_part = vertices <= self.vertices / FINISH_SHARE;
         let finish_ratio = if moves_no_vertex(self.options) && !is_small_part {
             FINISH_RATIO_HALF_EDGE
         } else {
@@ -274,7 +287,7 @@ impl<'a> Run<'a> {
     /// then gives the condition up has to go back to before that.
     fn may_get_stuck(&self, goal: Goal) -> bool {
         let near = goal.ratio(self.counts).is_some_and(|ratio| ratio <= STUCK_RATIO);
-        near && self.counts.vertices <= STUCK_VERTICES.min(self.input.positions().len() / 3)
+        near && self.counts.vertices <= STUCK_VERTICES.min(self.vertices / 3)
     }
 
     fn finish(
@@ -300,7 +313,7 @@ impl<'a> Run<'a> {
 
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
-        let unmoved = moves_no_vertex(self.options).then_some(self.input);
+        let unmoved = self.input.as_deref();
         let Remains { mesh, origins, sources, groups, surface_vertices } = self.surface.to_mesh(unmoved)?;
         let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.

@@ -13,6 +13,7 @@ use crate::mesh::Mesh;
 use crate::monitor::Cancelled;
 use crate::workers::{ThreadsError, Workers};
 use glam::Vec3A;
+use std::borrow::Cow;
 
 const RULES: Rules = Rules {
     any_topology: false,
@@ -38,11 +39,11 @@ impl Stages {
         let rank = rank(mesh, None, TILE / 8);
         let workers = Workers::new(threads)?;
         let setting = Setting { rank: rank.as_deref(), ..Setting::default() };
-        let surface = Surface::new(mesh, &setting, &workers);
+        let surface = Surface::new(Cow::Borrowed(mesh), &setting, &workers);
         Ok(Self {
             counts: Counts { faces: surface.faces.len(), vertices: surface.points.len() },
             surface,
-            goal: Goal::new(Target::Ratio(ratio), mesh),
+            goal: Goal::new(Target::Ratio(ratio), mesh.triangles().len()),
             workers,
             threshold: Threshold::new(),
         })

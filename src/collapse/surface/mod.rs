@@ -23,6 +23,7 @@ use crate::workers::Workers;
 use glam::{Vec3, Vec4};
 pub(crate) use remains::Remains;
 pub(crate) use rings::{Rings, SampledRings, are_coherent};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -137,17 +138,16 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// Copies `mesh`, without its degenerate triangles, scaled by a power of two to edges of
-    /// about unit length.
-    pub(crate) fn new(mesh: &Mesh, setting: &Setting, workers: &Workers) -> Self {
+    /// Takes `mesh` over, without its degenerate triangles, scaled by a power of two to edges of about unit
+    /// length: in the memory of its triangles where it is given away and they are in a good order.
+    pub(crate) fn new(mesh: Cow<Mesh>, setting: &Setting, workers: &Workers) -> Self {
         let &Setting { rank, track, half_edge, places, .. } = setting;
-        let scale = unit_scale(mesh);
+        let scale = unit_scale(&mesh);
         let count = mesh.positions().len();
         let place = |vertex: u32| {
             let vertex = places.map_or(vertex, |places| places.first[vertex as usize]);
             rank.map_or(vertex, |rank| rank[vertex as usize])
         };
-        let scaled = mesh.positions().iter().map(|&position| (Vec3::from(position) * scale).extend(0.0));
         let mut flags = vec![0; count];
         let tangled = places.map_or(&[][..], |places| &places.tangled);
         for (vertices, flag) in [
@@ -159,7 +159,7 @@ impl Surface {
             vertices.iter().for_each(|&vertex| flags[place(vertex) as usize] |= flag);
         }
         let (wedge_names, wedges) = if half_edge {
-            WedgeNames::new(mesh, places, setting.groups)
+            WedgeNames::new(&mesh, places, setting.groups)
         } else {
             (WedgeNames::default(), None)
         };
@@ -168,25 +168,36 @@ impl Surface {
             Some(places) => is_face(&triangle.map(|vertex| places.positions[vertex as usize])),
             None => is_face(triangle),
         };
+        let rows = half_edge.then(|| AttributeRows::new(&mesh, setting.weights, scale)).flatten();
+        let (positions, triangles, attributes) = match mesh {
+            Cow::Borrowed(mesh) => {
+                let attributes = if half_edge { Attributes::default() } else { mesh.attributes().clone() };
+                (Cow::Borrowed(mesh.positions()), Cow::Borrowed(mesh.triangles()), attributes)
+            }
+            Cow::Owned(mesh) => {
+                let (positions, triangles, attributes) = mesh.into_parts();
+                (Cow::Owned(positions), Cow::Owned(triangles), attributes)
+            }
+        };
+        let scaled = positions.iter().map(|&position| (Vec3::from(position) * scale).extend(0.0));
+        let points = match rank {
+            None => scaled.collect(),
+            Some(rank) => scatter(scaled, rank),
+        };
+        drop(positions);
         let Faces { faces, wedges } =
-            ordered_faces(mesh.triangles(), wedges.as_deref(), count, rank.is_some(), whole, place, workers);
-        let rows = half_edge.then(|| AttributeRows::new(mesh, setting.weights, scale)).flatten();
-        let none = Attributes::default();
-        let attributes = if half_edge { &none } else { mesh.attributes() };
+            ordered_faces(triangles, wedges.as_deref(), count, rank.is_some(), whole, place, workers);
         let merges = track.origins && !half_edge;
         Self {
-            points: match rank {
-                None => scaled.collect(),
-                Some(rank) => scatter(scaled, rank),
-            },
+            points,
             faces,
             flags,
             attributes: match rank {
-                None => attributes.clone(),
+                None => attributes,
                 Some(rank) => Attributes {
-                    normals: attributes.normals.as_ref().map(|n| scatter(n.iter().copied(), rank)),
-                    colors: attributes.colors.as_ref().map(|c| scatter(c.iter().copied(), rank)),
-                    uvs: attributes.uvs.as_ref().map(|uv| scatter(uv.iter().copied(), rank)),
+                    normals: attributes.normals.map(|normals| scatter(normals.into_iter(), rank)),
+                    colors: attributes.colors.map(|colors| scatter(colors.into_iter(), rank)),
+                    uvs: attributes.uvs.map(|uvs| scatter(uvs.into_iter(), rank)),
                 },
             },
             merged: if merges { (0..count as u32).collect() } else { Vec::new() },
