@@ -1,0 +1,90 @@
+"""Measures all contenders on all meshes, and writes the page.
+
+Called by `scripts/benchmarks.sh`, which installs and builds what is needed.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from .contenders import CONTENDERS
+from .measuring import Bench
+from .meshes import Cabinet, Tools
+from .page import page
+from .plan import FULL, QUICK, cases
+from .plots import draw
+from .rows import Row, RowFile, Setting
+from .setting import same, setting
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="scripts/benchmarks.sh", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="one small mesh, one run: whether it works, not how fast")
+    parser.add_argument("--resume", action="store_true", help="go on after an interruption: keep the rows there are")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="where benchmarks.md and benchmarks/ go")
+    parser.add_argument("files", type=Path, nargs="*", metavar="FILE", help="a mesh of any format that decimesh knows")
+    parser.add_argument("--root", type=Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--decimesh", type=Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--peers", type=Path, required=True, help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    out = arguments.out or (arguments.root / ("build/benchmarks/quick" if arguments.quick else "docs"))
+
+    file = RowFile(out / "benchmarks" / "rows.jsonl")
+    here = setting(arguments.root, arguments.quick)
+    if arguments.resume and file.path.exists():
+        before, rows = file.read()
+        if not same(before, here):
+            sys.exit(f"{file.path} is of another machine or another decimesh; without --resume all is measured anew")
+        here = before
+    else:
+        rows = []
+        file.begin(here)
+
+    tools = Tools(arguments.decimesh, arguments.peers)
+    cabinet = Cabinet(arguments.root / "build/benchmarks/meshes", tools)
+    measure(tools, cabinet, arguments, file, rows)
+    report(here, rows, out)
+
+
+def measure(tools: Tools, cabinet: Cabinet, arguments: argparse.Namespace, file: RowFile, rows: list[Row]) -> None:
+    """Adds to `rows` and to the file what is not there yet."""
+    plan = QUICK if arguments.quick else FULL
+    given = [cabinet.given(path) for path in arguments.files]
+    done = {(row.case, row.contender) for row in rows}
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory() as directory:
+        bench = Bench(tools, plan, Path(directory))
+        for mesh, case in cases(plan, cabinet, given):
+            print(f"\n{case.mesh}: {case.triangles_in:,} to {case.wanted:,}", flush=True)
+            for contender in CONTENDERS:
+                if (case, contender.name) in done:
+                    continue
+                row = bench.measure(contender, mesh, case, rows)
+                rows.append(row)
+                file.append(row)
+                print(f"  {time.monotonic() - begin:6.0f} s  {line(row)}", flush=True)
+
+
+def line(row: Row) -> str:
+    """A row for whoever watches."""
+    if row.failure is not None:
+        return f"{row.contender:34} {row.failure}"
+    missed = "" if row.reached else "  missed"
+    return (
+        f"{row.contender:34} {row.triangles:9,} {1e3 * row.seconds:10,.1f} ms "
+        f"{row.bytes_per_triangle:7,.0f} B/tri  {row.rms:.2e}  {row.maximum:.2e}{missed}"
+    )
+
+
+def report(here: Setting, rows: Sequence[Row], out: Path) -> None:
+    draw(here, rows, CONTENDERS, out / "benchmarks")
+    path = out / "benchmarks.md"
+    path.write_text(page(here, rows, CONTENDERS, "benchmarks"))
+    print(f"\n{os.path.relpath(path)} is written, plots and rows are in {os.path.relpath(out / 'benchmarks')}")
+
+
+main()

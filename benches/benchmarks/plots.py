@@ -1,0 +1,209 @@
+"""The plots, as SVG: the same bytes for the same rows."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+
+from adjustText import adjust_text
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from .contenders import Contender
+from .pareto import Standing, front_of, standings
+from .rows import Row, Setting
+
+STYLES = {
+    "decimesh": ("#0072b2", "o"),
+    "meshoptimizer": ("#d55e00", "s"),
+    "CGAL": ("#009e73", "^"),
+    "OpenMesh": ("#cc79a7", "v"),
+    "MeshLab": ("#8c6d1f", "D"),
+    "fast-simplification": ("#6a51a3", "P"),
+    "pyfqmr": ("#a6761d", "X"),
+    "VTK": ("#56b4e9", "<"),
+    "Open3D": ("#666666", ">"),
+    "libigl": ("#e6ab02", "p"),
+    "MeshLib": ("#1b1b1b", "h"),
+}
+"""Colour and marker of a family: told apart by either, since not everybody sees every colour."""
+
+TEXT = "#222222"
+QUIET = "#8a8a8a"
+
+matplotlib.rcParams.update(
+    {
+        "font.size": 9,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.edgecolor": QUIET,
+        "axes.labelcolor": TEXT,
+        "axes.titlesize": 10.5,
+        "xtick.color": TEXT,
+        "ytick.color": TEXT,
+        "text.color": TEXT,
+        "grid.color": "#e6e6e6",
+        "figure.facecolor": "white",
+        "savefig.facecolor": "white",
+        "svg.hashsalt": "decimesh",
+    }
+)
+
+
+def draw(setting: Setting, rows: Sequence[Row], contenders: Sequence[Contender], directory: Path) -> None:
+    """Writes the plots of `page.PLOTS`."""
+    directory.mkdir(parents=True, exist_ok=True)
+    families = {contender.name: contender.family for contender in contenders}
+    errors = [row for row in rows if row.case.series == "errors"]
+    sizes = [row for row in rows if row.case.series == "sizes" and row.failure is None]
+    note = f"{setting['date']}, {setting['processor']}; decimesh at {setting['commit']}"
+    _draw_errors(errors, families, lambda row: row.rms, "RMS distance", note, directory / "time-rms.svg")
+    _draw_errors(errors, families, lambda row: row.maximum, "maximum distance", note, directory / "time-maximum.svg")
+    _draw_sizes(sizes, families, note, directory / "sizes.svg")
+    _draw_memory(sizes, families, note, directory / "memory.svg")
+
+
+def _draw_errors(
+    rows: Sequence[Row],
+    families: dict[str, str],
+    error: Callable[[Row], float | None],
+    what: str,
+    note: str,
+    path: Path,
+) -> None:
+    percents = sorted({row.case.percent for row in rows}, reverse=True)
+    figure, panels = pyplot.subplots(
+        len(percents), 1, figsize=(8.6, 5.4 * len(percents)), layout="constrained", squeeze=False
+    )
+    for panel, percent in zip(panels[:, 0], percents, strict=True):
+        standing = standings([row for row in rows if row.case.percent == percent], error)
+        panel.set_title(f"To {percent:g} % of the triangles", loc="left")
+        panel.set_xlabel("microseconds per triangle")
+        panel.set_ylabel(f"{what}, as a multiple of the least")
+        _draw_standings(panel, standing, families)
+    _save(figure, note, path)
+
+
+def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[str, str]) -> None:
+    panel.set(xscale="log", yscale="log")
+    best = front_of(standing)
+    panel.plot([one.microseconds for one in best], [one.error for one in best], color=QUIET, linewidth=1.2, zorder=1)
+    labels = []
+    for one in standing:
+        colour, marker = STYLES[families[one.contender]]
+        panel.plot(
+            one.microseconds,
+            one.error,
+            marker=marker,
+            markersize=8,
+            color=colour,
+            markerfacecolor=colour if one.complete else "white",
+            linestyle="none",
+            zorder=2,
+        )
+        weight = "bold" if one in best else "normal"
+        labels.append(panel.text(one.microseconds, one.error, one.contender, color=colour, weight=weight, size=8.5))
+    panel.margins(0.12)
+    _plain_ticks(panel.xaxis)
+    _plain_ticks(panel.yaxis)
+    panel.grid(True, which="both", linewidth=0.5)
+    panel.set_axisbelow(True)
+    panel.figure.draw_without_rendering()
+    adjust_text(labels, ax=panel, expand=(1.15, 1.5), arrowprops={"arrowstyle": "-", "color": QUIET, "linewidth": 0.6})
+
+
+def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: Path) -> None:
+    figure, panel = pyplot.subplots(figsize=(8.6, 6.2), layout="constrained")
+    panel.set(xscale="log", yscale="log", xlabel="triangles of the input", ylabel="microseconds per triangle")
+    panel.set_title("Statues to 10 % of their triangles", loc="left")
+    ends = []
+    for name, its in _by_contender(rows).items():
+        colour, marker = STYLES[families[name]]
+        its = sorted(its, key=lambda row: row.case.triangles_in)
+        x = [row.case.triangles_in for row in its]
+        y = [row.microseconds_per_triangle for row in its]
+        panel.plot(x, y, color=colour, marker=marker, markersize=5, linewidth=2 if name.startswith("decimesh") else 1.2)
+        ends.append((x[-1], y[-1], name, colour))
+    panel.grid(True, which="both", linewidth=0.5)
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    panel.xaxis.set_minor_formatter(NullFormatter())
+    _plain_ticks(panel.yaxis)
+    _label_ends(panel, ends)
+    _save(figure, note, path)
+
+
+def _label_ends(panel: Axes, ends: Sequence[tuple[float, float, str, str]]) -> None:
+    """Names at the right, in the order of the lines' ends, as near to them as they can be without overlap."""
+    if not ends:
+        return
+    panel.figure.draw_without_rendering()
+    to_axes = panel.transAxes.inverted()
+    places = [(to_axes.transform(panel.transData.transform((x, y))), name, colour) for x, y, name, colour in ends]
+    places.sort(key=lambda place: place[0][1])
+    step = 0.036
+    heights: list[float] = []
+    for (_, y), _, _ in places:
+        heights.append(max(y, heights[-1] + step) if heights else y)
+    overflow = heights[-1] - 1.0
+    for place in range(len(heights) - 1, -1, -1):
+        ceiling = 1.0 if place == len(heights) - 1 else heights[place + 1] - step
+        heights[place] = min(heights[place], ceiling) if overflow > 0 else heights[place]
+    for ((x, y), name, colour), height in zip(places, heights, strict=True):
+        panel.annotate(
+            name,
+            xy=(x, y),
+            xytext=(1.03, height),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            color=colour,
+            size=8.5,
+            va="center",
+            weight="bold" if name.startswith("decimesh") else "normal",
+            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 1, "shrinkB": 4, "alpha": 0.6},
+            annotation_clip=False,
+        )
+
+
+def _draw_memory(rows: Sequence[Row], families: dict[str, str], note: str, path: Path) -> None:
+    largest = [max(its, key=lambda row: row.case.triangles_in) for its in _by_contender(rows).values()]
+    bars = sorted((row for row in largest if row.bytes_per_triangle), key=lambda row: -row.bytes_per_triangle)
+    figure, panel = pyplot.subplots(figsize=(8.6, 0.29 * len(bars) + 1.3), layout="constrained")
+    names = [row.contender for row in bars]
+    values = [row.bytes_per_triangle for row in bars]
+    drawn = panel.barh(names, values, height=0.72, color=[STYLES[families[name]][0] for name in names])
+    panel.bar_label(
+        drawn,
+        [f"{row.bytes_per_triangle:,.0f}  ({row.case.triangles_in / 1e6:.2g} M triangles)" for row in bars],
+        padding=4,
+        size=8.5,
+    )
+    panel.set_xlabel("bytes per triangle of the input, beyond the input")
+    panel.set_xlim(0, 1.22 * max(values, default=1.0))
+    panel.tick_params(axis="y", length=0)
+    panel.grid(True, axis="x", linewidth=0.5)
+    panel.set_axisbelow(True)
+    panel.spines["left"].set_visible(False)
+    _save(figure, note, path)
+
+
+def _by_contender(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(row.contender, []).append(row)
+    return groups
+
+
+def _plain_ticks(axis: matplotlib.axis.Axis) -> None:
+    """Numbers as people write them, at 1, 2 and 5."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _save(figure: matplotlib.figure.Figure, note: str, path: Path) -> None:
+    figure.supxlabel(note, size=7.5, color=QUIET, x=0.01, ha="left")
+    figure.savefig(path, metadata={"Date": None})
+    pyplot.close(figure)
