@@ -74,7 +74,8 @@ def _errors_text(rows: Sequence[Row]) -> str:
     return (
         f"On {', '.join(meshes)}: errors as multiples of the least on each mesh, and geometric means of those and of "
         "the times over the meshes. Lower and further left is better; on the line are those to whom nobody comes "
-        "near in less time. Hollow: missed the count on a mesh, and so is not on the line."
+        "near in less time. Hollow: missed the count on a mesh, or did not do it, and so is not on the line; whoever "
+        "seems closer than all others by leaving more triangles stands at the lower edge."
     )
 
 

@@ -1,17 +1,22 @@
 """The plots, as SVG: the same bytes for the same rows."""
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib
 
 matplotlib.use("svg")
 
-from adjustText import adjust_text
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from . import labels
 from .contenders import Contender
 from .pareto import Standing, front_of, standings
 from .rows import Row, Setting
@@ -20,16 +25,22 @@ STYLES = {
     "decimesh": ("#0072b2", "o"),
     "meshoptimizer": ("#d55e00", "s"),
     "CGAL": ("#009e73", "^"),
-    "OpenMesh": ("#cc79a7", "v"),
-    "MeshLab": ("#8c6d1f", "D"),
+    "OpenMesh": ("#c2578f", "v"),
+    "MeshLab": ("#7f3b08", "D"),
     "fast-simplification": ("#6a51a3", "P"),
-    "pyfqmr": ("#a6761d", "X"),
-    "VTK": ("#56b4e9", "<"),
+    "pyfqmr": ("#882255", "X"),
+    "VTK": ("#2b8cbe", "<"),
     "Open3D": ("#666666", ">"),
-    "libigl": ("#e6ab02", "p"),
+    "libigl": ("#b8860b", "p"),
     "MeshLib": ("#1b1b1b", "h"),
 }
 """Colour and marker of a family: told apart by either, since not everybody sees every colour."""
+
+LOWER_EDGE = 0.85
+"""As a multiple of the least error: where those are drawn that missed the count and were closer still."""
+
+MARKER = 8.0
+"""Points from side to side."""
 
 TEXT = "#222222"
 QUIET = "#8a8a8a"
@@ -78,41 +89,70 @@ def _draw_errors(
     figure, panels = pyplot.subplots(
         len(percents), 1, figsize=(8.6, 5.4 * len(percents)), layout="constrained", squeeze=False
     )
+    drawn = []
     for panel, percent in zip(panels[:, 0], percents, strict=True):
         standing = standings([row for row in rows if row.case.percent == percent], error)
         panel.set_title(f"To {percent:g} % of the triangles", loc="left")
         panel.set_xlabel("microseconds per triangle")
         panel.set_ylabel(f"{what}, as a multiple of the least")
-        _draw_standings(panel, standing, families)
-    _save(figure, note, path)
+        drawn.append(_draw_standings(panel, standing, families))
+    _settle(figure, note)
+    for panel in drawn:
+        panel.place_labels()
+    _save(figure, path)
 
 
-def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[str, str]) -> None:
+def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[str, str]) -> "Panel":
     panel.set(xscale="log", yscale="log")
     best = front_of(standing)
     panel.plot([one.microseconds for one in best], [one.error for one in best], color=QUIET, linewidth=1.2, zorder=1)
-    labels = []
+    texts = []
     for one in standing:
         colour, marker = STYLES[families[one.contender]]
+        # Whoever left too many triangles may be far closer than all others: that says nothing, and takes no room.
+        point = (one.microseconds, one.error if one.complete else max(one.error, LOWER_EDGE))
+        fill = colour if one.complete else "white"
         panel.plot(
-            one.microseconds,
-            one.error,
-            marker=marker,
-            markersize=8,
-            color=colour,
-            markerfacecolor=colour if one.complete else "white",
-            linestyle="none",
-            zorder=2,
+            *point, marker=marker, markersize=MARKER, color=colour, markerfacecolor=fill, linestyle="none", zorder=2
         )
+        text = one.contender if one.complete else f"{one.contender} (missed)"
         weight = "bold" if one in best else "normal"
-        labels.append(panel.text(one.microseconds, one.error, one.contender, color=colour, weight=weight, size=8.5))
+        label = panel.text(*point, text, color=colour, weight=weight, size=8.5, va="bottom")
+        # Where it stands for now shall not make room for it.
+        label.set_in_layout(False)
+        texts.append(label)
     panel.margins(0.12)
     _plain_ticks(panel.xaxis)
     _plain_ticks(panel.yaxis)
     panel.grid(True, which="both", linewidth=0.5)
     panel.set_axisbelow(True)
-    panel.figure.draw_without_rendering()
-    adjust_text(labels, ax=panel, expand=(1.15, 1.5), arrowprops={"arrowstyle": "-", "color": QUIET, "linewidth": 0.6})
+    return Panel(panel, texts, [(one.microseconds, one.error) for one in best])
+
+
+class Panel(NamedTuple):
+    """A panel whose labels have no places yet."""
+
+    axes: Axes
+    texts: list[Text]
+    line: list[labels.Point]
+
+    def place_labels(self) -> None:
+        """To be called once the layout of the figure stands."""
+        to_pixels = self.axes.transData
+        to_data = to_pixels.inverted()
+        self.axes.autoscale(False)
+        points = [tuple(to_pixels.transform(text.get_position())) for text in self.texts]
+        half = 0.5 * MARKER * self.axes.figure.dpi / 72
+        boxes = [labels.Box(x - half, y - half, x + half, y + half) for x, y in points]
+        sizes = [(extent.width, extent.height) for extent in (text.get_window_extent() for text in self.texts)]
+        line = [tuple(to_pixels.transform(point)) for point in self.line]
+        placed = labels.place(boxes, sizes, line, labels.Box(*self.axes.bbox.extents))
+        for text, point, box in zip(self.texts, points, placed, strict=True):
+            text.set_position(to_data.transform((box.left, box.bottom)))
+            end = labels.nearest(box, point)
+            if math.dist(end, point) > 3 * half:
+                way = to_data.transform([point, end])
+                self.axes.plot(way[:, 0], way[:, 1], color=QUIET, linewidth=0.6, zorder=1)
 
 
 def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: Path) -> None:
@@ -132,7 +172,8 @@ def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: 
     panel.xaxis.set_minor_formatter(NullFormatter())
     _plain_ticks(panel.yaxis)
     _label_ends(panel, ends)
-    _save(figure, note, path)
+    _settle(figure, note)
+    _save(figure, path)
 
 
 def _label_ends(panel: Axes, ends: Sequence[tuple[float, float, str, str]]) -> None:
@@ -174,19 +215,19 @@ def _draw_memory(rows: Sequence[Row], families: dict[str, str], note: str, path:
     names = [row.contender for row in bars]
     values = [row.bytes_per_triangle for row in bars]
     drawn = panel.barh(names, values, height=0.72, color=[STYLES[families[name]][0] for name in names])
-    panel.bar_label(
-        drawn,
-        [f"{row.bytes_per_triangle:,.0f}  ({row.case.triangles_in / 1e6:.2g} M triangles)" for row in bars],
-        padding=4,
-        size=8.5,
-    )
+    largest_size = max((row.case.triangles_in for row in bars), default=0)
+    panel.set_title(f"On a statue of {largest_size:,} triangles, or the largest that was done", loc="left")
+    sizes = ["" if row.case.triangles_in == largest_size else f" (of {row.case.triangles_in:,})" for row in bars]
+    texts = [f"{value:,.0f}{size}" for value, size in zip(values, sizes, strict=True)]
+    panel.bar_label(drawn, texts, padding=4, size=8.5)
     panel.set_xlabel("bytes per triangle of the input, beyond the input")
     panel.set_xlim(0, 1.22 * max(values, default=1.0))
     panel.tick_params(axis="y", length=0)
     panel.grid(True, axis="x", linewidth=0.5)
     panel.set_axisbelow(True)
     panel.spines["left"].set_visible(False)
-    _save(figure, note, path)
+    _settle(figure, note)
+    _save(figure, path)
 
 
 def _by_contender(rows: Sequence[Row]) -> dict[str, list[Row]]:
@@ -196,14 +237,20 @@ def _by_contender(rows: Sequence[Row]) -> dict[str, list[Row]]:
     return groups
 
 
-def _plain_ticks(axis: matplotlib.axis.Axis) -> None:
+def _plain_ticks(axis: Axis) -> None:
     """Numbers as people write them, at 1, 2 and 5."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
-def _save(figure: matplotlib.figure.Figure, note: str, path: Path) -> None:
+def _settle(figure: Figure, note: str) -> None:
+    """Adds the note, and lets the layout stand as it is from here on."""
     figure.supxlabel(note, size=7.5, color=QUIET, x=0.01, ha="left")
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+
+
+def _save(figure: Figure, path: Path) -> None:
     figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from .rows import Setting
 
-
 MEASURED = ("src", "Cargo.toml", "Cargo.lock", "cpp-tests/comparisons", "benches/benchmarks/peers")
 """What the figures depend on, in the checkout: a page that is written anew makes no new figures."""
 
