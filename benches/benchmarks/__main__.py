@@ -15,7 +15,7 @@ from .contenders import CONTENDERS
 from .measuring import Bench
 from .meshes import Cabinet, Tools
 from .page import page
-from .plan import FULL, QUICK, cases
+from .plan import FULL, QUICK, Plan, cases
 from .plots import draw
 from .rows import Row, RowFile, Setting
 from .setting import same, setting
@@ -34,7 +34,8 @@ def main() -> None:
     out = arguments.out or (arguments.root / ("build/benchmarks/quick" if arguments.quick else "docs"))
 
     file = RowFile(out / "benchmarks" / "rows.jsonl")
-    here = setting(arguments.root, arguments.quick)
+    plan = QUICK if arguments.quick else FULL
+    here = setting(arguments.root, plan, arguments.quick)
     if arguments.resume and file.path.exists():
         before, rows = file.read()
         if not same(before, here):
@@ -46,14 +47,13 @@ def main() -> None:
 
     tools = Tools(arguments.decimesh, arguments.peers)
     cabinet = Cabinet(arguments.root / "build/benchmarks/meshes", tools)
-    measure(tools, cabinet, arguments, file, rows)
+    measure(plan, tools, cabinet, arguments.files, file, rows)
     report(here, rows, out)
 
 
-def measure(tools: Tools, cabinet: Cabinet, arguments: argparse.Namespace, file: RowFile, rows: list[Row]) -> None:
+def measure(plan: Plan, tools: Tools, cabinet: Cabinet, files: Sequence[Path], file: RowFile, rows: list[Row]) -> None:
     """Adds to `rows` and to the file what is not there yet."""
-    plan = QUICK if arguments.quick else FULL
-    given = [cabinet.given(path) for path in arguments.files]
+    given = [cabinet.given(path) for path in files]
     done = {(row.case, row.contender) for row in rows}
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as directory:

@@ -34,8 +34,10 @@ class Bench:
             values = self._run(contender, mesh, case)
             distance = self._distance(mesh)
         except Failed as failure:
-            return Row(case, contender.name, failure=str(failure))
-        return Row(case, contender.name, **values, rms=distance["rms_rel"], maximum=distance["max_rel"])
+            return Row(case, contender.name, contender.cores, failure=str(failure))
+        return Row(
+            case, contender.name, contender.cores, **values, rms=distance["rms_rel"], maximum=distance["max_rel"]
+        )
 
     def _check_time(self, contender: Contender, case: Case, before: Iterable[Row]) -> None:
         """A contender does not get faster by larger meshes."""

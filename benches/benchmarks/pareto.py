@@ -16,6 +16,7 @@ class Standing:
     """Of a triangle of the input."""
     error: float
     """A multiple of the least on each mesh, among those that reached the count."""
+    cores: int
     complete: bool
     """Whether it reached the count on every mesh. Otherwise the means are over those on which it gave anything."""
 
@@ -56,6 +57,7 @@ def standings(rows: Sequence[Row], error: Callable[[Row], float | None]) -> list
             contender,
             geometric_mean(row.microseconds_per_triangle for row in its),
             geometric_mean(error(row) / best[row.case.mesh] for row in its),
+            its[0].cores,
             sum(row.reached for row in its) == len(best),
         )
         for contender, its in measured.items()
@@ -63,6 +65,6 @@ def standings(rows: Sequence[Row], error: Callable[[Row], float | None]) -> list
 
 
 def front_of(standings: Sequence[Standing]) -> list[Standing]:
-    """Those of the complete ones on the front of time and error."""
-    complete = [standing for standing in standings if standing.complete]
-    return [complete[place] for place in front([(one.microseconds, one.error) for one in complete])]
+    """Those on the front of time and error, of the complete ones on one core: two cores are another race."""
+    racing = [standing for standing in standings if standing.complete and standing.cores == 1]
+    return [racing[place] for place in front([(one.microseconds, one.error) for one in racing])]

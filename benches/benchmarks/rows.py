@@ -32,6 +32,7 @@ class Row:
 
     case: Case
     contender: str
+    cores: int = 1
     failure: str | None = None
     library: str | None = None
     load_seconds: list[float] = field(default_factory=list)

@@ -1,18 +1,21 @@
 """What the figures were measured on."""
 
 import datetime
+import json
 import os
 import platform
 import subprocess
+from dataclasses import asdict
 from pathlib import Path
 
+from .plan import Plan
 from .rows import Setting
 
 MEASURED = ("src", "Cargo.toml", "Cargo.lock", "cpp-tests/comparisons", "benches/benchmarks/peers")
 """What the figures depend on, in the checkout: a page that is written anew makes no new figures."""
 
 
-def setting(root: Path, quick: bool) -> Setting:
+def setting(root: Path, plan: Plan, quick: bool) -> Setting:
     """Of this machine, now. `root` is the checkout that is measured."""
     return {
         "date": datetime.date.today().isoformat(),
@@ -24,12 +27,14 @@ def setting(root: Path, quick: bool) -> Setting:
         "python": platform.python_version(),
         "load": round(os.getloadavg()[0], 2),
         "quick": quick,
+        # As it comes back from a file: with lists for tuples.
+        "plan": json.loads(json.dumps(asdict(plan))),
     }
 
 
 def same(one: Setting, other: Setting) -> bool:
     """Whether rows of both may stand in one table."""
-    keys = ("commit", "processor", "cores", "quick")
+    keys = ("commit", "processor", "cores", "quick", "plan")
     return all(one.get(key) == other.get(key) for key in keys)
 
 

@@ -14,13 +14,11 @@ def table(header: Sequence[str], lines: Sequence[Sequence[str]], numbers_from: i
 
 
 def results(rows: Sequence[Row]) -> str:
-    """All contenders of one case. Of those that reached the count, errors to which no faster one comes as near
-    are bold."""
-    standing = [row for row in rows if row.reached]
-    closest = front([(row.seconds, row.rms) for row in standing])
-    nearest = front([(row.seconds, row.maximum) for row in standing])
-    by_rms = {standing[place].contender for place in closest}
-    by_maximum = {standing[place].contender for place in nearest}
+    """All contenders of one case. Errors on the front of time and error are bold: of those that reached the count,
+    on one core."""
+    racing = [row for row in rows if row.reached and row.cores == 1]
+    by_rms = {racing[place].contender for place in front([(row.seconds, row.rms) for row in racing])}
+    by_maximum = {racing[place].contender for place in front([(row.seconds, row.maximum) for row in racing])}
     header = ["", "triangles", "ms", "conversion ms", "Mtri/s", "bytes/tri", "RMS", "maximum"]
     lines = []
     for row in rows:
@@ -42,7 +40,9 @@ def results(rows: Sequence[Row]) -> str:
     return table(header, lines)
 
 
-def by_size(rows: Sequence[Row], contenders: Sequence[Contender], value: Callable[[Row], float | None]) -> str:
+def by_size(
+    rows: Sequence[Row], contenders: Sequence[Contender], value: Callable[[Row], float | None], digits: int
+) -> str:
     """A value of each contender on each size of a shape."""
     sizes = sorted({row.case.triangles_in for row in rows})
     found = {(row.contender, row.case.triangles_in): row for row in rows}
@@ -53,7 +53,7 @@ def by_size(rows: Sequence[Row], contenders: Sequence[Contender], value: Callabl
             row = found.get((contender.name, size))
             number = None if row is None or row.failure is not None else value(row)
             missed = "" if number is None or row.reached else " *missed*"
-            cells.append("" if number is None else f"{number:.2f}{missed}")
+            cells.append("" if number is None else f"{number:,.{digits}f}{missed}")
         lines.append([contender.name, *cells])
     return table(["", *[f"{size:,}" for size in sizes]], lines)
 

@@ -2,9 +2,11 @@
 
 import re
 import unittest
+from dataclasses import asdict
 
 from benchmarks.contenders import CONTENDERS, Contender
 from benchmarks.page import PLOTS, page
+from benchmarks.plan import FULL
 from benchmarks.rows import Row
 from benchmarks.tables import by_size, calls, results
 
@@ -20,6 +22,7 @@ SETTING = {
     "python": "3.11",
     "load": 0.1,
     "quick": False,
+    "plan": asdict(FULL),
 }
 
 
@@ -39,6 +42,7 @@ class Results(unittest.TestCase):
                     row("fast", 1e-3, 4e-3, 1e-1),
                     row("close", 2e-3, 1e-3, 2e-1),
                     row("cheat", 1e-4, 1e-4, 1e-4, triangles=500),
+                    row("two", 1e-4, 1e-4, 1e-4, cores=2),
                     Row(case(), "absent", failure="not installed"),
                 ]
             )
@@ -47,6 +51,7 @@ class Results(unittest.TestCase):
         self.assertEqual(table["close"][-2:], ["**1.00e-03**", "2.00e-01"])
         self.assertEqual(table["cheat"][0], "500 *missed*")
         self.assertEqual(table["cheat"][-2:], ["1.00e-04", "1.00e-04"])
+        self.assertEqual(table["two"][-2:], ["1.00e-04", "1.00e-04"])
         self.assertEqual(table["absent"][0], "*not installed*")
 
 
@@ -59,7 +64,7 @@ class Sizes(unittest.TestCase):
             row("fast", 2e-2, 1.0, case=case("large", triangles_in=10_000), triangles=500),
             Row(case("large", triangles_in=10_000), "slow", failure="not run"),
         ]
-        table = cells(by_size(rows, contenders, lambda row: row.microseconds_per_triangle))
+        table = cells(by_size(rows, contenders, lambda row: row.microseconds_per_triangle, digits=2))
         self.assertEqual(table[""], ["1,000", "10,000"])
         self.assertEqual(table["fast"], ["1.00", "2.00 *missed*"])
         self.assertEqual(table["slow"], ["10.00", ""])

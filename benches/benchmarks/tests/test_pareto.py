@@ -67,6 +67,10 @@ class Standings(unittest.TestCase):
         self.assertAlmostEqual(honest.error, 1.0)
         self.assertEqual(front_of([cheat, honest]), [honest])
 
+    def test_two_cores_are_not_on_the_front(self) -> None:
+        one, two = standings([row("one", 2e-3, 1.0), row("two", 1e-3, 1.0, cores=2)], self.rms)
+        self.assertEqual(front_of([one, two]), [one])
+
     def test_who_fails_on_a_mesh_is_not_on_the_front(self) -> None:
         rows = [
             row("one", 1e-3, 1.0),

@@ -9,7 +9,7 @@ from benchmarks.setting import same
 
 from .examples import case, row
 
-SETTING = {"commit": "abc", "processor": "some", "cores": 2, "quick": False, "date": "2026-01-01"}
+SETTING = {"commit": "abc", "processor": "some", "cores": 2, "quick": False, "plan": {"runs": 5}, "date": "2026-01-01"}
 
 
 class File(unittest.TestCase):
@@ -52,9 +52,10 @@ class Reached(unittest.TestCase):
 
 
 class Settings(unittest.TestCase):
-    def test_of_other_days_go_together_and_of_other_commits_do_not(self) -> None:
+    def test_of_other_days_go_together_and_of_other_commits_or_plans_do_not(self) -> None:
         self.assertTrue(same(SETTING, SETTING | {"date": "2026-01-02"}))
         self.assertFalse(same(SETTING, SETTING | {"commit": "def"}))
+        self.assertFalse(same(SETTING, SETTING | {"plan": {"runs": 3}}))
 
 
 if __name__ == "__main__":
