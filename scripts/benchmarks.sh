@@ -22,7 +22,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
 
 # What is measured on and the libraries of C++; then what the wheels load from the system, to draw and to show.
-packages=(cmake ninja-build g++ python3 python3-venv libcgal-dev libcgal-demo libeigen3-dev libopenmesh-dev
+packages=(cmake ninja-build g++ doctest-dev python3 python3-venv
+    libcgal-dev libcgal-demo libeigen3-dev libopenmesh-dev
     libgl1 libglu1-mesa libopengl0 libegl1 libgomp1 libusb-1.0-0 libx11-6 libxrender1)
 if command -v dpkg-query >/dev/null && ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
     if [ "$(id -u)" -eq 0 ]; then
@@ -50,8 +51,9 @@ if ! cmp -s "$requirements" "$work/venv/installed.txt"; then
 fi
 
 cargo build --locked --release -p decimesh-cli >&2
+# In a place of its own: cargo would make the library anew for each of the two, since the command has other features.
 cmake -G Ninja -S . -B "$work/cmake" -DCMAKE_BUILD_TYPE=Release -DDECIMESH_BUILD_EXAMPLES=OFF \
-    -DDECIMESH_CARGO_TARGET_DIR="$target" >&2
+    -DDECIMESH_CARGO_TARGET_DIR="$work/cargo" >&2
 cmake --build "$work/cmake" --target peers >&2
 
 PYTHONPATH=benches exec "$python" -m benchmarks --root "$PWD" --decimesh "$target/release/decimesh" \

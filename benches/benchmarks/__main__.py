@@ -5,6 +5,7 @@ Called by `scripts/benchmarks.sh`, which installs and builds what is needed.
 
 import argparse
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -22,6 +23,15 @@ from .setting import same, setting
 
 
 def main() -> None:
+    try:
+        run(parse())
+    except (OSError, ValueError, subprocess.CalledProcessError) as error:
+        sys.exit(f"error: {error}")
+    except KeyboardInterrupt:
+        sys.exit("interrupted; --resume goes on")
+
+
+def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="scripts/benchmarks.sh", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="one small mesh, one run: whether it works, not how fast")
     parser.add_argument("--resume", action="store_true", help="go on after an interruption: keep the rows there are")
@@ -30,7 +40,10 @@ def main() -> None:
     parser.add_argument("--root", type=Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--decimesh", type=Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--peers", type=Path, required=True, help=argparse.SUPPRESS)
-    arguments = parser.parse_args()
+    return parser.parse_args()
+
+
+def run(arguments: argparse.Namespace) -> None:
     out = arguments.out or (arguments.root / ("build/benchmarks/quick" if arguments.quick else "docs"))
 
     file = RowFile(out / "benchmarks" / "rows.jsonl")
@@ -39,7 +52,7 @@ def main() -> None:
     if arguments.resume and file.path.exists():
         before, rows = file.read()
         if not same(before, here):
-            sys.exit(f"{file.path} is of another machine or another decimesh; without --resume all is measured anew")
+            raise ValueError(f"{file.path} is of another machine, plan or decimesh: --resume does not go on with it")
         here = before
     else:
         rows = []
@@ -54,6 +67,10 @@ def main() -> None:
 def measure(plan: Plan, tools: Tools, cabinet: Cabinet, files: Sequence[Path], file: RowFile, rows: list[Row]) -> None:
     """Adds to `rows` and to the file what is not there yet."""
     given = [cabinet.given(path) for path in files]
+    names = [*plan.archived, *(mesh.name for mesh in given)]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise ValueError(f"several meshes are called {', '.join(sorted(twice))}")
     done = {(row.case, row.contender) for row in rows}
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as directory:
@@ -74,9 +91,10 @@ def line(row: Row) -> str:
     if row.failure is not None:
         return f"{row.contender:34} {row.failure}"
     missed = "" if row.reached else "  missed"
+    memory = "" if row.bytes_per_triangle is None else f"{row.bytes_per_triangle:,.0f} B/tri"
     return (
         f"{row.contender:34} {row.triangles:9,} {1e3 * row.seconds:10,.1f} ms "
-        f"{row.bytes_per_triangle:7,.0f} B/tri  {row.rms:.2e}  {row.maximum:.2e}{missed}"
+        f"{memory:>12}  {row.rms:.2e}  {row.maximum:.2e}{missed}"
     )
 
 

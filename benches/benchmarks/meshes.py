@@ -39,13 +39,15 @@ class Cabinet:
     def archived(self, name: str) -> Mesh:
         """A mesh of the archive: `name`.off."""
         source = self.directory / f"{name}.off"
-        if not source.exists():
+        ready = self.directory / f"{name}.ready.ply"
+        # What an interruption left half unpacked is unpacked again.
+        if not ready.exists():
             with tarfile.open(ARCHIVE) as archive:
                 member = archive.extractfile(f"data/meshes/{source.name}")
                 if member is None:
                     raise OSError(f"{ARCHIVE} has no {source.name}")
                 source.write_bytes(member.read())
-        return self._welded(name, source)
+        return self._welded(name, source, ready)
 
     def statue(self, triangles: int) -> Mesh:
         """The statue of `decimesh demo`, of about so many triangles."""
@@ -62,18 +64,16 @@ class Cabinet:
                 "--quiet",
             ]
             subprocess.run(command, check=True)
-        return self._welded(directory.name, directory / "statue.ply")
+        return self._welded(directory.name, directory / "statue.ply", directory / "statue.ready.ply")
 
     def given(self, path: Path) -> Mesh:
         """A file of the caller's, of any format that decimesh knows. Made ready anew: it may have changed."""
-        self._ready(path.stem).unlink(missing_ok=True)
-        return self._welded(path.stem, path)
+        ready = self.directory / "given" / f"{path.stem}.ply"
+        ready.parent.mkdir(exist_ok=True)
+        ready.unlink(missing_ok=True)
+        return self._welded(path.stem, path, ready)
 
-    def _ready(self, name: str) -> Path:
-        return self.directory / f"{name}.ready.ply"
-
-    def _welded(self, name: str, source: Path) -> Mesh:
-        path = self._ready(name)
+    def _welded(self, name: str, source: Path, path: Path) -> Mesh:
         if not path.exists():
             command = [self.tools.peers, "--weld", source, path]
             run = subprocess.run(command, capture_output=True, text=True, check=False)

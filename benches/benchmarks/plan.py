@@ -43,4 +43,4 @@ def cases(plan: Plan, cabinet: Cabinet, given: Sequence[Mesh]) -> Iterator[tuple
 
 
 def _case(mesh: Mesh, series: str, percent: float) -> Case:
-    return Case(mesh.name, mesh.triangles, int(mesh.triangles * percent / 100), series, percent)
+    return Case(mesh.name, mesh.triangles, max(1, int(mesh.triangles * percent / 100)), series, percent)

@@ -42,7 +42,7 @@ class Row:
     unload_seconds: list[float] = field(default_factory=list)
     """Of each run: back to positions and indices."""
     peak_bytes: int | None = None
-    """Resident memory that loading and the call added to the process at their highest."""
+    """Resident memory that loading and the call added to the process at their highest, where that can be told."""
     triangles: int | None = None
     rms: float | None = None
     """Two-sided, over the diagonal, as all distances here."""

@@ -19,12 +19,12 @@ std::size_t status(const std::string &key) {
 
 } // namespace
 
-std::size_t begin_peak() {
+std::optional<std::size_t> begin_peak() {
     malloc_trim(0);
     std::ofstream file("/proc/self/clear_refs");
     // 5 resets the peak, see proc(5).
     if (!(file << "5" << std::flush))
-        throw std::runtime_error("the system does not let the peak of memory be reset");
+        return std::nullopt;
     return status("VmRSS:");
 }
 

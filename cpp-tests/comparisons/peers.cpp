@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -65,13 +66,14 @@ struct Run {
     double load_seconds;
     double simplify_seconds;
     double unload_seconds;
-    std::size_t peak_bytes;
+    /// Added by loading and the call, at their highest.
+    std::optional<std::size_t> peak_bytes;
     Mesh result;
 };
 
 Run run(const Contender &contender, const Mesh &mesh, std::size_t triangles) {
     Run run{};
-    const std::size_t before = begin_peak();
+    const auto before = begin_peak();
     auto start = Clock::now();
     const auto task = contender.load(mesh);
     run.load_seconds = seconds_since(start);
@@ -79,7 +81,8 @@ Run run(const Contender &contender, const Mesh &mesh, std::size_t triangles) {
     task->simplify(triangles);
     run.simplify_seconds = seconds_since(start);
     // The pages of libraries and of threads come and go beside the counter: it may end below where it began.
-    run.peak_bytes = std::max(peak_bytes(), before) - before;
+    if (before)
+        run.peak_bytes = std::max(peak_bytes(), *before) - *before;
     start = Clock::now();
     run.result = task->result();
     run.unload_seconds = seconds_since(start);
@@ -101,7 +104,7 @@ std::string list(const std::vector<Run> &runs, double Run::*seconds) {
     std::string list;
     for (const Run &run : runs) {
         char text[32];
-        std::snprintf(text, sizeof text, "%s%.6f", list.empty() ? "" : ", ", run.*seconds);
+        std::snprintf(text, sizeof text, "%s%.9f", list.empty() ? "" : ", ", run.*seconds);
         list += text;
     }
     return '[' + list + ']';
@@ -121,10 +124,10 @@ void measure(const Contender &contender, const std::string &input, const std::st
     const Run &first = runs.front();
     write(first.result, output);
     std::printf("{\"library\": %s, \"load_seconds\": %s, \"simplify_seconds\": %s, \"unload_seconds\": %s, "
-                "\"peak_bytes\": %zu, \"triangles\": %zu}\n",
+                "\"peak_bytes\": %s, \"triangles\": %zu}\n",
                 quoted(contender.library).c_str(), list(runs, &Run::load_seconds).c_str(),
                 list(runs, &Run::simplify_seconds).c_str(), list(runs, &Run::unload_seconds).c_str(),
-                first.peak_bytes, first.result.triangles.size());
+                first.peak_bytes ? std::to_string(*first.peak_bytes).c_str() : "null", first.result.triangles.size());
 }
 
 } // namespace

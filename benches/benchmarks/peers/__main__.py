@@ -18,7 +18,7 @@ class Run(NamedTuple):
     load_seconds: float
     simplify_seconds: float
     unload_seconds: float
-    peak_bytes: int
+    peak_bytes: int | None
     positions: Positions
     triangles: Triangles
 
@@ -31,7 +31,7 @@ def run(simplifier: Simplifier, positions: Positions, triangles: Triangles, coun
     held = simplifier.simplify(held, count)
     simplified = time.perf_counter()
     # The pages of libraries and of threads come and go beside the counter: it may end below where it began.
-    peak = max(0, memory.peak_bytes() - before)
+    peak = None if before is None else max(0, memory.peak_bytes() - before)
     unloading = time.perf_counter()
     new_positions, new_triangles = simplifier.unload(held)
     end = time.perf_counter()
@@ -80,9 +80,9 @@ def measure(arguments: argparse.Namespace) -> dict[str, Any]:
     ply.write(arguments.output, first.positions, first.triangles)
     return {
         "library": f"{module.DISTRIBUTION} {version}",
-        "load_seconds": [round(run.load_seconds, 6) for run in runs],
-        "simplify_seconds": [round(run.simplify_seconds, 6) for run in runs],
-        "unload_seconds": [round(run.unload_seconds, 6) for run in runs],
+        "load_seconds": [round(run.load_seconds, 9) for run in runs],
+        "simplify_seconds": [round(run.simplify_seconds, 9) for run in runs],
+        "unload_seconds": [round(run.unload_seconds, 9) for run in runs],
         "peak_bytes": first.peak_bytes,
         "triangles": len(first.triangles),
     }

@@ -8,12 +8,16 @@ from pathlib import Path
 _C_LIBRARY = ctypes.CDLL(None)
 
 
-def begin_peak() -> int:
-    """Gives back what is free to the system, makes the resident bytes of now the peak, and returns them."""
+def begin_peak() -> int | None:
+    """Gives back what is free to the system, makes the resident bytes of now the peak, and returns them; nothing
+    where the system does not allow it."""
     gc.collect()
     _C_LIBRARY.malloc_trim(0)
     # 5 resets the peak, see proc(5).
-    Path("/proc/self/clear_refs").write_text("5")
+    try:
+        Path("/proc/self/clear_refs").write_text("5")
+    except OSError:
+        return None
     return _status("VmRSS")
 
 
