@@ -73,6 +73,19 @@ def place(markers: Sequence[Box], sizes: Sequence[Point], line: Sequence[Point],
     return boxes
 
 
+def spread(heights: Sequence[float], step: float, top: float) -> list[float]:
+    """Heights in the same, ascending order, `step` apart at the least and none above `top`: pushed up where they
+    crowd, and down again from the top."""
+    spread: list[float] = []
+    for height in heights:
+        spread.append(max(height, spread[-1] + step) if spread else height)
+    ceiling = top
+    for place in reversed(range(len(spread))):
+        spread[place] = min(spread[place], ceiling)
+        ceiling = spread[place] - step
+    return spread
+
+
 def nearest(box: Box, point: Point) -> Point:
     """The point of the box that is nearest."""
     return min(max(point[0], box.left), box.right), min(max(point[1], box.bottom), box.top)

@@ -29,8 +29,8 @@ def page(setting: Setting, rows: Sequence[Row], contenders: Sequence[Contender],
         _picture("time-maximum.svg", plots),
         "## Linear time",
         _paragraph(
-            "One shape in several sizes, the statue of `decimesh demo`, to a tenth of its triangles. A line that ends "
-            "early would have gone past the limit of time."
+            "One shape in several sizes, the statue of `decimesh demo`, to a tenth of its triangles. Hollow: missed "
+            "the count. A line that ends early would have gone past the limit of time."
         ),
         _picture("sizes.svg", plots),
         "Microseconds per triangle of the input:",

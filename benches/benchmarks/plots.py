@@ -13,7 +13,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from . import labels
@@ -21,8 +21,9 @@ from .contenders import Contender
 from .pareto import Standing, front_of, standings
 from .rows import Row, Setting
 
+OURS = "decimesh"
 STYLES = {
-    "decimesh": ("#0072b2", "o"),
+    OURS: ("#0072b2", "o"),
     "meshoptimizer": ("#d55e00", "s"),
     "CGAL": ("#009e73", "^"),
     "OpenMesh": ("#c2578f", "v"),
@@ -165,8 +166,25 @@ def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: 
         its = sorted(its, key=lambda row: row.case.triangles_in)
         x = [row.case.triangles_in for row in its]
         y = [row.microseconds_per_triangle for row in its]
-        panel.plot(x, y, color=colour, marker=marker, markersize=5, linewidth=2 if name.startswith("decimesh") else 1.2)
-        ends.append((x[-1], y[-1], name, colour))
+        panel.plot(x, y, color=colour, linewidth=2 if families[name] == OURS else 1.2)
+        for row in its:
+            fill = colour if row.reached else "white"
+            at = (row.case.triangles_in, row.microseconds_per_triangle)
+            panel.plot(*at, marker=marker, markersize=5, color=colour, markerfacecolor=fill)
+        weight = "bold" if families[name] == OURS else "normal"
+        text = panel.annotate(
+            _name(its[-1]),
+            (x[-1], y[-1]),
+            xytext=(1.03, 0.5),
+            textcoords="axes fraction",
+            color=colour,
+            weight=weight,
+            size=8.5,
+            va="center",
+            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 1, "shrinkB": 4, "alpha": 0.6},
+            annotation_clip=False,
+        )
+        ends.append(text)
     panel.grid(True, which="both", linewidth=0.5)
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
     panel.xaxis.set_minor_formatter(NullFormatter())
@@ -176,45 +194,24 @@ def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: 
     _save(figure, path)
 
 
-def _label_ends(panel: Axes, ends: Sequence[tuple[float, float, str, str]]) -> None:
+def _label_ends(panel: Axes, ends: Sequence[Annotation]) -> None:
     """Names at the right, in the order of the lines' ends, as near to them as they can be without overlap."""
-    if not ends:
-        return
-    panel.figure.draw_without_rendering()
-    to_axes = panel.transAxes.inverted()
-    places = [(to_axes.transform(panel.transData.transform((x, y))), name, colour) for x, y, name, colour in ends]
-    places.sort(key=lambda place: place[0][1])
-    step = 0.036
-    heights: list[float] = []
-    for (_, y), _, _ in places:
-        heights.append(max(y, heights[-1] + step) if heights else y)
-    overflow = heights[-1] - 1.0
-    for place in range(len(heights) - 1, -1, -1):
-        ceiling = 1.0 if place == len(heights) - 1 else heights[place + 1] - step
-        heights[place] = min(heights[place], ceiling) if overflow > 0 else heights[place]
-    for ((x, y), name, colour), height in zip(places, heights, strict=True):
-        panel.annotate(
-            name,
-            xy=(x, y),
-            xytext=(1.03, height),
-            xycoords="axes fraction",
-            textcoords="axes fraction",
-            color=colour,
-            size=8.5,
-            va="center",
-            weight="bold" if name.startswith("decimesh") else "normal",
-            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 1, "shrinkB": 4, "alpha": 0.6},
-            annotation_clip=False,
-        )
+    # Limits are found when they are asked for; what is drawn from here on shall not change them.
+    panel.set(xlim=panel.get_xlim(), ylim=panel.get_ylim())
+    to_axes = panel.transData + panel.transAxes.inverted()
+    upward = sorted((to_axes.transform(end.xy)[1], place) for place, end in enumerate(ends))
+    heights = labels.spread([height for height, _ in upward], step=0.036, top=1.0)
+    for (_, place), height in zip(upward, heights, strict=True):
+        ends[place].set_position((1.03, height))
 
 
 def _draw_memory(rows: Sequence[Row], families: dict[str, str], note: str, path: Path) -> None:
     largest = [max(its, key=lambda row: row.case.triangles_in) for its in _by_contender(rows).values()]
     bars = sorted((row for row in largest if row.bytes_per_triangle), key=lambda row: -row.bytes_per_triangle)
     figure, panel = pyplot.subplots(figsize=(8.6, 0.29 * len(bars) + 1.3), layout="constrained")
-    names = [row.contender for row in bars]
+    names = [_name(row) for row in bars]
     values = [row.bytes_per_triangle for row in bars]
-    drawn = panel.barh(names, values, height=0.72, color=[STYLES[families[name]][0] for name in names])
+    drawn = panel.barh(names, values, height=0.72, color=[STYLES[families[row.contender]][0] for row in bars])
     largest_size = max((row.case.triangles_in for row in bars), default=0)
     panel.set_title(f"On a statue of {largest_size:,} triangles, or the largest that was done", loc="left")
     sizes = ["" if row.case.triangles_in == largest_size else f" (of {row.case.triangles_in:,})" for row in bars]
@@ -228,6 +225,10 @@ def _draw_memory(rows: Sequence[Row], families: dict[str, str], note: str, path:
     panel.spines["left"].set_visible(False)
     _settle(figure, note)
     _save(figure, path)
+
+
+def _name(row: Row) -> str:
+    return row.contender if row.reached else f"{row.contender} (missed)"
 
 
 def _by_contender(rows: Sequence[Row]) -> dict[str, list[Row]]:

@@ -4,7 +4,7 @@ import itertools
 import random
 import unittest
 
-from benchmarks.labels import Box, middle, nearest, place
+from benchmarks.labels import Box, middle, nearest, place, spread
 
 FRAME = Box(0.0, 0.0, 800.0, 500.0)
 
@@ -62,6 +62,21 @@ class Placing(unittest.TestCase):
         (box,) = place([marker(400.0, 250.0)], [(100.0, 12.0)], [], FRAME)
         x, y = nearest(box, middle(marker(400.0, 250.0)))
         self.assertLess(abs(x - 400.0) + abs(y - 250.0), 10.0)
+
+
+class Spreading(unittest.TestCase):
+    def test_keeps_apart_and_below_the_top(self) -> None:
+        draw = random.Random(2)
+        for _ in range(200):
+            heights = sorted(draw.random() for _ in range(draw.randrange(12)))
+            placed = spread(heights, step=0.05, top=1.0)
+            self.assertEqual(len(placed), len(heights))
+            self.assertTrue(all(height <= 1.0 for height in placed))
+            for low, high in itertools.pairwise(placed):
+                self.assertGreaterEqual(high - low, 0.05 - 1e-12)
+
+    def test_leaves_alone_what_has_room(self) -> None:
+        self.assertEqual(spread([0.1, 0.5, 0.9], step=0.05, top=1.0), [0.1, 0.5, 0.9])
 
 
 if __name__ == "__main__":
