@@ -53,7 +53,7 @@ fi
 cargo build --locked --release -p decimesh-cli >&2
 # In a place of its own: cargo would make the library anew for each of the two, since the command has other features.
 cmake -G Ninja -S . -B "$work/cmake" -DCMAKE_BUILD_TYPE=Release -DDECIMESH_BUILD_EXAMPLES=OFF \
-    -DDECIMESH_CARGO_TARGET_DIR="$work/cargo" >&2
+    -DDECIMESH_BUILD_PEERS=ON -DDECIMESH_CARGO_TARGET_DIR="$work/cargo" >&2
 cmake --build "$work/cmake" --target peers >&2
 
 PYTHONPATH=benches exec "$python" -m benchmarks --root "$PWD" --decimesh "$target/release/decimesh" \

@@ -1,7 +1,7 @@
 """Where labels of points go, so that they cover neither points nor lines nor each other.
 
 Christensen, Marks and Shieber, "An Empirical Study of Algorithms for Point-Feature Label Placement", ACM Transactions
-on Graphics 14(3), 1995, section 3.3: discrete gradient descent. Each label has a choice of places around its point,
+on Graphics 14(3), 1995: their discrete gradient descent. Each label has a choice of places around its point,
 and goes to the one that costs least while the others stay, until none does. Departures: places at several distances,
 for crowds of points with long labels, and labels in turns rather than the best move of all, which is enough for some
 dozens. All lengths are in one unit, pixels say.

@@ -36,6 +36,7 @@ STYLES = {
     "MeshLib": ("#1b1b1b", "h"),
 }
 """Colour and marker of a family: told apart by either, since not everybody sees every colour."""
+OTHER = ("#444444", "*")
 
 LOWER_EDGE = 0.85
 """As a multiple of the least error: where those are drawn that missed the count and were closer still."""
@@ -63,6 +64,32 @@ matplotlib.rcParams.update(
         "svg.hashsalt": "decimesh",
     }
 )
+
+
+class Panel(NamedTuple):
+    """A panel whose labels have no places yet."""
+
+    axes: Axes
+    texts: list[Text]
+    line: list[labels.Point]
+
+    def place_labels(self) -> None:
+        """To be called once the layout of the figure stands."""
+        to_pixels = self.axes.transData
+        to_data = to_pixels.inverted()
+        self.axes.autoscale(False)
+        points = [tuple(to_pixels.transform(text.get_position())) for text in self.texts]
+        half = 0.5 * MARKER * self.axes.figure.dpi / 72
+        boxes = [labels.Box(x - half, y - half, x + half, y + half) for x, y in points]
+        sizes = [(extent.width, extent.height) for extent in (text.get_window_extent() for text in self.texts)]
+        line = [tuple(to_pixels.transform(point)) for point in self.line]
+        placed = labels.place(boxes, sizes, line, labels.Box(*self.axes.bbox.extents))
+        for text, point, box in zip(self.texts, points, placed, strict=True):
+            text.set_position(to_data.transform((box.left, box.bottom)))
+            end = labels.nearest(box, point)
+            if math.dist(end, point) > 3 * half:
+                way = to_data.transform([point, end])
+                self.axes.plot(way[:, 0], way[:, 1], color=QUIET, linewidth=0.6, zorder=1)
 
 
 def draw(setting: Setting, rows: Sequence[Row], contenders: Sequence[Contender], directory: Path) -> None:
@@ -103,13 +130,13 @@ def _draw_errors(
     _save(figure, path)
 
 
-def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[str, str]) -> "Panel":
+def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[str, str]) -> Panel:
     panel.set(xscale="log", yscale="log")
     best = front_of(standing)
     panel.plot([one.microseconds for one in best], [one.error for one in best], color=QUIET, linewidth=1.2, zorder=1)
     texts = []
     for one in standing:
-        colour, marker = STYLES[families[one.contender]]
+        colour, marker = STYLES.get(families[one.contender], OTHER)
         # Whoever left too many triangles may be far closer than all others: that says nothing, and takes no room.
         point = (one.microseconds, one.error if one.complete else max(one.error, LOWER_EDGE))
         fill = colour if one.complete else "white"
@@ -130,39 +157,13 @@ def _draw_standings(panel: Axes, standing: Sequence[Standing], families: dict[st
     return Panel(panel, texts, [(one.microseconds, one.error) for one in best])
 
 
-class Panel(NamedTuple):
-    """A panel whose labels have no places yet."""
-
-    axes: Axes
-    texts: list[Text]
-    line: list[labels.Point]
-
-    def place_labels(self) -> None:
-        """To be called once the layout of the figure stands."""
-        to_pixels = self.axes.transData
-        to_data = to_pixels.inverted()
-        self.axes.autoscale(False)
-        points = [tuple(to_pixels.transform(text.get_position())) for text in self.texts]
-        half = 0.5 * MARKER * self.axes.figure.dpi / 72
-        boxes = [labels.Box(x - half, y - half, x + half, y + half) for x, y in points]
-        sizes = [(extent.width, extent.height) for extent in (text.get_window_extent() for text in self.texts)]
-        line = [tuple(to_pixels.transform(point)) for point in self.line]
-        placed = labels.place(boxes, sizes, line, labels.Box(*self.axes.bbox.extents))
-        for text, point, box in zip(self.texts, points, placed, strict=True):
-            text.set_position(to_data.transform((box.left, box.bottom)))
-            end = labels.nearest(box, point)
-            if math.dist(end, point) > 3 * half:
-                way = to_data.transform([point, end])
-                self.axes.plot(way[:, 0], way[:, 1], color=QUIET, linewidth=0.6, zorder=1)
-
-
 def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: Path) -> None:
     figure, panel = pyplot.subplots(figsize=(8.6, 6.2), layout="constrained")
     panel.set(xscale="log", yscale="log", xlabel="triangles of the input", ylabel="microseconds per triangle")
     panel.set_title("Statues to 10 % of their triangles", loc="left")
     ends = []
     for name, its in _by_contender(rows).items():
-        colour, marker = STYLES[families[name]]
+        colour, marker = STYLES.get(families[name], OTHER)
         its = sorted(its, key=lambda row: row.case.triangles_in)
         x = [row.case.triangles_in for row in its]
         y = [row.microseconds_per_triangle for row in its]
@@ -211,7 +212,9 @@ def _draw_memory(rows: Sequence[Row], families: dict[str, str], note: str, path:
     figure, panel = pyplot.subplots(figsize=(8.6, 0.29 * len(bars) + 1.3), layout="constrained")
     names = [_name(row) for row in bars]
     values = [row.bytes_per_triangle for row in bars]
-    drawn = panel.barh(names, values, height=0.72, color=[STYLES[families[row.contender]][0] for row in bars])
+    drawn = panel.barh(
+        names, values, height=0.72, color=[STYLES.get(families[row.contender], OTHER)[0] for row in bars]
+    )
     largest_size = max((row.case.triangles_in for row in bars), default=0)
     panel.set_title(f"On a statue of {largest_size:,} triangles, or the largest that was done", loc="left")
     sizes = ["" if row.case.triangles_in == largest_size else f" (of {row.case.triangles_in:,})" for row in bars]
