@@ -34,12 +34,15 @@ CONTENDERS = (
     Contender(
         "fast-simplification, agg 3",
         "fast-simplification",
-        "`simplify`, `agg=3`: slower, better",
+        "`simplify`, `agg=3`: closer; stops at an error that depends on the unit of length",
         "fast_simplification",
     ),
     Contender("pyfqmr", "pyfqmr", "`simplify_mesh`, defaults (`aggressiveness=7`)", "pyfqmr"),
     Contender(
-        "pyfqmr, aggressiveness 3", "pyfqmr", "`simplify_mesh`, `aggressiveness=3`, `preserve_border=True`", "pyfqmr"
+        "pyfqmr, aggressiveness 3",
+        "pyfqmr",
+        "`simplify_mesh`, `aggressiveness=3`, `preserve_border=True`; stops likewise",
+        "pyfqmr",
     ),
     Contender("VTK quadric", "VTK", "`vtkQuadricDecimation`, defaults", "vtk"),
     Contender("VTK DecimatePro", "VTK", "`vtkDecimatePro`, defaults", "vtk"),
