@@ -68,7 +68,7 @@ class Bench:
         threads = str(len(allowed))
         # Libraries that count the machine's cores rather than their own would start a thread for each.
         environment = os.environ | {"OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads}
-        process = subprocess.Popen(
+        with subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -77,14 +77,13 @@ class Bench:
             errors="replace",
             env=environment,
             preexec_fn=lambda: os.sched_setaffinity(0, allowed),
-        )
-        try:
-            output, errors = process.communicate(timeout=self.plan.limit)
-        except subprocess.TimeoutExpired:
-            raise Failed(f"stopped after {self.plan.limit:g} s") from None
-        finally:
-            process.kill()
-            process.wait()
+        ) as process:
+            try:
+                output, errors = process.communicate(timeout=self.plan.limit)
+            except subprocess.TimeoutExpired:
+                raise Failed(f"stopped after {self.plan.limit:g} s") from None
+            finally:
+                process.kill()
         if process.returncode < 0:
             raise Failed(f"ended by {signal.Signals(-process.returncode).name}")
         if process.returncode > 0:
