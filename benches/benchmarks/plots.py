@@ -182,7 +182,7 @@ def _draw_sizes(rows: Sequence[Row], families: dict[str, str], note: str, path: 
             weight=weight,
             size=8.5,
             va="center",
-            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 1, "shrinkB": 4, "alpha": 0.6},
+            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "alpha": 0.6, "relpos": (0.0, 0.5)},
             annotation_clip=False,
         )
         ends.append(text)
@@ -251,6 +251,8 @@ def _plain_ticks(axis: Axis) -> None:
 def _settle(figure: Figure, note: str) -> None:
     """Adds the note, and lets the layout stand as it is from here on."""
     figure.supxlabel(note, size=7.5, color=QUIET, x=0.01, ha="left")
+    # Text is a little wider in the file than on the screen that the layout is made for.
+    figure.get_layout_engine().set(w_pad=0.12)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
 
