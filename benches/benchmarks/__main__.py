@@ -5,6 +5,7 @@ Called by `scripts/benchmarks.sh`, which installs and builds what is needed.
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,8 @@ from .setting import same, setting
 
 
 def main() -> None:
+    # Ended from outside as by hand: the contender that runs is ended too.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         run(parse())
     except (OSError, ValueError, subprocess.CalledProcessError) as error:
