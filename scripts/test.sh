@@ -41,7 +41,7 @@ step() {
 # What Debian has to give. Machines that have it already, or are no Debian, are left alone.
 tools() {
     local packages=(g++ clang libclang-rt-14-dev cmake ninja-build make pkg-config binutils
-        doctest-dev valgrind abigail-tools
+        python3 doctest-dev valgrind abigail-tools
         libopenmesh-dev libcgal-dev libcgal-demo libeigen3-dev)
     if command -v dpkg-query >/dev/null && ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
         apt-get update -q
@@ -89,6 +89,11 @@ command_line() {
     decimesh info "$work/small.obj"
 }
 
+# Of Python's own library alone: what measures and draws is seen to work by scripts/benchmarks.sh --quick.
+benchmarks_report() {
+    PYTHONPATH=benches PYTHONDONTWRITEBYTECODE=1 python3 -m unittest discover -t benches -s benches/benchmarks/tests
+}
+
 # build PRESET [CMAKE-ARGUMENT...]
 build() {
     local preset=$1
@@ -122,6 +127,7 @@ step "release build of the command" cargo build --locked --release -p decimesh-c
 step "the command on a mesh of its own" command_line
 step "tests of Rust" cargo test --locked --workspace
 step "examples in Rust" rust_examples
+step "the report of the benchmarks" benchmarks_report
 step "tests, examples and comparisons in C and C++" c_and_cpp
 step "the C ABI against its record" scripts/abi.sh
 step "programs that use decimesh from outside" scripts/consumers.sh

@@ -8,6 +8,7 @@
 #include "checks.hpp"
 #include "contender.hpp"
 #include "distance.hpp"
+#include "files.hpp"
 #include "meshes.hpp"
 
 #include <cstdio>

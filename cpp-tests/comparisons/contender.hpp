@@ -26,6 +26,8 @@ public:
 
 struct Contender {
     std::string name;
+    /// Whose it is, with its version.
+    std::string library;
     std::function<std::unique_ptr<Task>(const Mesh &)> load;
 };
 
@@ -49,5 +51,8 @@ Contender meshoptimizer_simplify();
 
 /// Moves the vertices too.
 Contender meshoptimizer_update();
+
+/// Clusters of vertices: no collapses, and no regard for the topology.
+Contender meshoptimizer_sloppy();
 
 } // namespace comparison

@@ -4,6 +4,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/version.h>
 
 #include <stdexcept>
 
@@ -83,14 +84,17 @@ public:
     }
 };
 
+const std::string library = "CGAL " CGAL_VERSION_STR;
+
 } // namespace
 
 Contender cgal_lindstrom_turk() {
-    return {"CGAL Lindstrom-Turk", [](const Mesh &mesh) { return std::make_unique<LindstromTurk>(mesh); }};
+    return {"CGAL Lindstrom-Turk", library,
+            [](const Mesh &mesh) { return std::make_unique<LindstromTurk>(mesh); }};
 }
 
 Contender cgal_garland_heckbert() {
-    return {"CGAL Garland-Heckbert",
+    return {"CGAL Garland-Heckbert", library,
             [](const Mesh &mesh) { return std::make_unique<GarlandHeckbert>(mesh); }};
 }
 

@@ -1,36 +1,13 @@
 #include "contender.hpp"
 
-#include <decimesh.h>
-
-#include <algorithm>
-#include <stdexcept>
+#include "decimesh_mesh.hpp"
 
 namespace comparison {
 namespace {
 
-struct Destroy {
-    void operator()(decimesh_mesh *mesh) const { decimesh_mesh_destroy(mesh); }
-};
-using Handle = std::unique_ptr<decimesh_mesh, Destroy>;
-
-void check(decimesh_status status) {
-    if (status != DECIMESH_OK)
-        throw std::runtime_error(decimesh_last_error_message());
-}
-
 class DecimeshTask final : public Task {
 public:
-    DecimeshTask(const Mesh &mesh, unsigned threads) : thread_count(threads) {
-        decimesh_buffers buffers;
-        decimesh_buffers_init(&buffers, sizeof buffers);
-        buffers.positions = mesh.positions.front().data();
-        buffers.vertex_count = mesh.positions.size();
-        buffers.indices = mesh.triangles.front().data();
-        buffers.index_count = 3 * mesh.triangles.size();
-        decimesh_mesh *created = nullptr;
-        check(decimesh_mesh_from_buffers(&buffers, &created));
-        original.reset(created);
-    }
+    DecimeshTask(const Mesh &mesh, unsigned threads) : thread_count(threads), original(to_decimesh(mesh)) {}
 
     void simplify(std::size_t triangles) override {
         decimesh_simplify_options options;
@@ -43,16 +20,7 @@ public:
         simplified.reset(created);
     }
 
-    Mesh result() override {
-        Mesh mesh;
-        mesh.positions.resize(decimesh_mesh_vertex_count(simplified.get()));
-        mesh.triangles.resize(decimesh_mesh_triangle_count(simplified.get()));
-        const float *positions = decimesh_mesh_positions(simplified.get());
-        std::copy_n(positions, 3 * mesh.positions.size(), mesh.positions.front().data());
-        const std::uint32_t *indices = decimesh_mesh_indices(simplified.get());
-        std::copy_n(indices, 3 * mesh.triangles.size(), mesh.triangles.front().data());
-        return mesh;
-    }
+    Mesh result() override { return from_decimesh(simplified.get()); }
 
 private:
     unsigned thread_count;
@@ -74,7 +42,7 @@ std::string name(unsigned threads) {
 } // namespace
 
 Contender decimesh_default(unsigned threads) {
-    return {name(threads),
+    return {name(threads), std::string("decimesh ") + decimesh_version_string(),
             [threads](const Mesh &mesh) { return std::make_unique<DecimeshTask>(mesh, threads); }};
 }
 

@@ -1,6 +1,7 @@
 #include "contender.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/System/config.h>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/McDecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
@@ -63,7 +64,9 @@ private:
 };
 
 template <typename Decimater> Contender openmesh(std::string name) {
-    return {std::move(name),
+    const auto version =
+        std::to_string((OM_VERSION & 0xf0000) >> 16) + '.' + std::to_string((OM_VERSION & 0x0ff00) >> 8);
+    return {std::move(name), "OpenMesh " + version,
             [](const Mesh &mesh) { return std::make_unique<OpenMeshTask<Decimater>>(mesh); }};
 }
 

@@ -1,19 +1,17 @@
 /// \file
-/// What is allocated, by whom ever: a program that links this has its `malloc` counted, and so that of
-/// the C++ and of the Rust that it calls.
+/// Memory as the system sees it: pages that are resident, whoever allocated them and however. Linux only.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 namespace comparison {
 
-/// Bytes of all blocks that are allocated now, as large as the allocator made them.
-std::size_t allocated_bytes();
+/// Resident bytes from here on count as one peak: gives back what is free to the system, makes the bytes
+/// of now the peak, and returns them; nothing where the system does not allow it.
+std::optional<std::size_t> begin_peak();
 
-/// The most there were at once since the last `reset_peak_bytes`, on all threads together.
+/// The most bytes that were resident at once since `begin_peak`, on all threads together.
 std::size_t peak_bytes();
-
-/// Makes the bytes of now the peak.
-void reset_peak_bytes();
 
 } // namespace comparison

@@ -1,12 +1,8 @@
 #include "meshes.hpp"
 
-#include <CGAL/IO/polygon_soup_io.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 namespace comparison {
@@ -88,22 +84,6 @@ Mesh halved(const Mesh &mesh) {
 }
 
 } // namespace
-
-Mesh read(const std::string &path) {
-    std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
-    std::vector<std::vector<std::size_t>> polygons;
-    if (!CGAL::IO::read_polygon_soup(path, points, polygons) || polygons.empty())
-        throw std::runtime_error("cannot read " + path);
-    Mesh mesh;
-    for (const auto &place : points)
-        mesh.positions.push_back(point(place.x(), place.y(), place.z()));
-    for (const auto &polygon : polygons)
-        for (std::size_t corner = 2; corner < polygon.size(); ++corner)
-            mesh.triangles.push_back({static_cast<std::uint32_t>(polygon[0]),
-                                      static_cast<std::uint32_t>(polygon[corner - 1]),
-                                      static_cast<std::uint32_t>(polygon[corner])});
-    return mesh;
-}
 
 Mesh bumpy_sphere(int halvings) {
     Mesh mesh = icosahedron();

@@ -1,15 +1,10 @@
 /// \file
-/// What the contenders are compared on.
+/// Meshes made by rule, to compare contenders on.
 #pragma once
 
 #include "mesh.hpp"
 
-#include <string>
-
 namespace comparison {
-
-/// A file of any format that CGAL knows (OFF, PLY, STL, OBJ); polygons are cut into fans.
-Mesh read(const std::string &path);
 
 /// A closed surface with bumps of two sizes: 20 x 4^`halvings` triangles.
 Mesh bumpy_sphere(int halvings);
