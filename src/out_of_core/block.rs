@@ -7,10 +7,10 @@
 
 use super::OutOfCoreError;
 use super::journal::{Block, Directory, Done, Part};
-use super::stored::{Appended, Columns, Stored, Triangles, Vertices, vertex_of};
+use super::stored::{Appended, Columns, Ranked, Stored, Triangles, Vertices, vertex_of};
 use super::vertex_set::{VertexBits, VertexSet};
 use crate::hqms::{Options, Target, Topology, prices, simplify};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, select};
 use crate::monitor::Monitor;
 
 /// From one price to the next, a block loses so much of its triangles...
@@ -25,6 +25,7 @@ pub(super) struct Loaded {
     mesh: Mesh,
     /// For each vertex its index in the whole mesh.
     names: Vec<u32>,
+    ranks: Vec<u32>,
     /// Those that stay.
     locked: Vec<u32>,
 }
@@ -59,13 +60,18 @@ impl Loaded {
         let mut columns = Columns::new(stored.carried, names.len());
         names.iter().try_for_each(|&name| vertices.get(name).map(|bytes| columns.push(bytes)))?;
 
+        let Ranked { mesh, ranks, order } = columns.into_mesh(triangles)?;
+        let names = select(&names, &order);
+
         let is_shared: Vec<bool> = names.iter().map(|&name| shared.place(name).is_some()).collect();
         let mut stays = vec![false; names.len()];
-        for corners in triangles.iter().filter(|corners| corners.iter().any(|&v| is_shared[v as usize])) {
+        for corners in
+            mesh.triangles().iter().filter(|corners| corners.iter().any(|&v| is_shared[v as usize]))
+        {
             corners.iter().for_each(|&vertex| stays[vertex as usize] = true);
         }
         let locked = (0..).zip(stays).filter(|(_, stays)| *stays).map(|(vertex, _)| vertex).collect();
-        Ok(Self { mesh: columns.into_mesh(triangles)?, names, locked })
+        Ok(Self { mesh, names, ranks, locked })
     }
 
     /// The engine's options for the block.
@@ -119,7 +125,7 @@ impl Loaded {
         monitor: &mut Monitor,
     ) -> Result<Done, OutOfCoreError> {
         let options = self.options(options, Target::Triangles(goal));
-        let Self { mesh, names, .. } = self;
+        let Self { mesh, names, ranks, .. } = self;
         let result = simplify(&mesh, &options, monitor)?;
         drop((mesh, options));
         let mut own = 0;
@@ -128,7 +134,8 @@ impl Loaded {
             let index = match shared.place(names[*source as usize]) {
                 Some(index) => index as usize,
                 None => {
-                    vertices.vertex(&vertex_of(&result.mesh, vertex), stored.carried)?;
+                    let rank = ranks[*source as usize];
+                    vertices.vertex(rank, &vertex_of(&result.mesh, vertex), stored.carried)?;
                     own += 1;
                     next + own - 1
                 }

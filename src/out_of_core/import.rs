@@ -135,7 +135,9 @@ impl Sink for Import<'_, '_> {
             self.low[axis] = self.low[axis].min(x);
             self.high[axis] = self.high[axis].max(x);
         }
-        if let Err(failure) = self.vertices.vertex(&vertex, self.carried) {
+        // There are no more than 32 bits can count.
+        let rank = self.counts.vertices as u32;
+        if let Err(failure) = self.vertices.vertex(rank, &vertex, self.carried) {
             return Err(self.fail(failure));
         }
         self.counts.vertices += 1;

@@ -30,8 +30,8 @@ impl Memory {
     fn run(&self, triangles: usize, vertices: usize, left: usize) -> usize {
         let left_vertices = (left as f64 * vertices as f64 / triangles.max(1) as f64) as usize + 1;
         let mesh = 12 * triangles + (12 + self.attributes) * vertices;
-        // Names in the whole mesh, and a few locks.
-        let beside = 5 * vertices;
+        // Names in the whole mesh, ranks, and a few locks.
+        let beside = 9 * vertices;
         // Points 16, flags 1, sources 4, places in a better order 4.
         let surface = 12 * triangles + (25 + self.attributes) * vertices;
         let rings = 12 * triangles + 4 * vertices;

@@ -28,17 +28,16 @@ mod shares;
 mod stored;
 mod vertex_set;
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Read, Write};
+use std::fs;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 pub use self::error::OutOfCoreError;
-use self::error::work;
 use self::journal::{Directory, Imported, Journal, Part, Task};
 use self::memory::{BUFFER, Memory};
 use self::round::{Setting, part};
-use self::stored::{Columns, Stored, Triangles, Vertices, attribute_bytes, vertex_bytes};
+use self::stored::{Columns, RANK, Stored, Triangles, Vertices, attribute_bytes};
 use crate::hqms::{Options, Placement, Simplified, StoppedBy, Target, simplify};
 use crate::io::{Encoding, FileError, Format, ReadError, WriteError, WriteOptions, ply, replace, write};
 use crate::mesh::Mesh;
@@ -289,7 +288,7 @@ fn load(stored: &Stored, round: usize, directory: &Directory) -> Result<Mesh, Ou
     while let Some(corners) = on_disk.next()? {
         triangles.push(corners);
     }
-    Ok(columns.into_mesh(triangles)?)
+    Ok(columns.into_mesh(triangles)?.mesh)
 }
 
 /// Copies a mesh on disk to the output.
@@ -300,31 +299,29 @@ fn write_stored(
     output: &Path,
     monitor: &mut Monitor,
 ) -> Result<(), OutOfCoreError> {
-    let vertices_path = directory.path(Part::Vertices, round);
+    let path = directory.path(Part::Vertices, round);
+    let mut vertices = Vertices::open(&path, stored.carried, stored.vertices, 0)?;
     let mut triangles = Triangles::open(&directory.path(Part::Triangles, round), 0, stored.triangles)?;
-    let vertices = File::open(&vertices_path).map_err(work(&vertices_path))?;
-    let mut vertices = vertices.take((stored.vertices * vertex_bytes(stored.carried)) as u64);
     monitor.report(0.0)?;
     let mut failure = None;
     let written = replace(output, |file| {
         let mut writer = BufWriter::with_capacity(BUFFER, file);
         let Stored { carried, vertices: count, triangles: faces, .. } = *stored;
         ply::write_header(Encoding::Binary, count, carried, faces, &mut writer)?;
-        std::io::copy(&mut vertices, &mut writer)?;
-        loop {
-            match triangles.next() {
-                Ok(Some(corners)) => {
-                    let mut face = [3; 13];
-                    face[1..].copy_from_slice(corners.map(u32::to_le_bytes).as_flattened());
-                    writer.write_all(&face)?;
-                }
-                Ok(None) => return Ok(writer.flush()?),
-                Err(error) => {
-                    failure = Some(error);
-                    return Err(WriteError::Io(std::io::ErrorKind::Other.into()));
-                }
-            }
+        let mut fail = |error| {
+            failure = Some(error);
+            // Nobody is told of this one.
+            WriteError::Io(std::io::ErrorKind::Other.into())
+        };
+        for vertex in 0..count {
+            writer.write_all(&vertices.get(vertex as u32).map_err(&mut fail)?[RANK..])?;
         }
+        while let Some(corners) = triangles.next().map_err(&mut fail)? {
+            let mut face = [3; 13];
+            face[1..].copy_from_slice(corners.map(u32::to_le_bytes).as_flattened());
+            writer.write_all(&face)?;
+        }
+        Ok(writer.flush()?)
     });
     failure.map_or(Ok(()), Err)?;
     written.map_err(OutOfCoreError::Write)
