@@ -144,13 +144,17 @@ pub(super) enum Part {
 }
 
 impl Part {
-    const ALL: [(Self, &str); 5] = [
-        (Self::Vertices, "vertices"),
-        (Self::Triangles, "triangles"),
-        (Self::Cells, "cells"),
-        (Self::Blocks, "blocks"),
-        (Self::Shared, "shared"),
-    ];
+    const ALL: [Self; 5] = [Self::Vertices, Self::Triangles, Self::Cells, Self::Blocks, Self::Shared];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "vertices",
+            Self::Triangles => "triangles",
+            Self::Cells => "cells",
+            Self::Blocks => "blocks",
+            Self::Shared => "shared",
+        }
+    }
 }
 
 /// The directory of one task, which no other process has in its hands.
@@ -230,8 +234,7 @@ impl Directory {
 
     /// Where a part of a round is.
     pub(super) fn path(&self, part: Part, round: usize) -> PathBuf {
-        let name = Part::ALL.iter().find(|(other, _)| *other == part).map_or("", |(_, name)| name);
-        self.path.join(format!("{name}-{round}"))
+        self.path.join(format!("{}-{round}", part.name()))
     }
 
     /// Removes a part of a round, if it is there.
@@ -245,7 +248,7 @@ impl Directory {
 
     /// Removes all parts of a round.
     pub(super) fn remove_round(&self, round: usize) -> Result<(), OutOfCoreError> {
-        Part::ALL.iter().try_for_each(|&(part, _)| self.remove(part, round))
+        Part::ALL.iter().try_for_each(|&part| self.remove(part, round))
     }
 
     /// Removes the directory, whose work is done, with what was made in it.

