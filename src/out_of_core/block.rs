@@ -10,6 +10,7 @@ use super::journal::{Block, Directory, Done, Part};
 use super::stored::{Appended, Columns, Ranked, Stored, Triangles, Vertices, vertex_of};
 use super::vertex_set::{VertexBits, VertexSet};
 use crate::hqms::{Options, Target, Topology, prices, simplify};
+use crate::io::ply::Carried;
 use crate::mesh::{Mesh, select};
 use crate::monitor::Monitor;
 
@@ -113,15 +114,13 @@ impl Loaded {
     }
 
     /// Simplifies the block to `goal` triangles and appends what is left, with the vertices that are of this
-    /// block alone, of which the first will have the index `next`.
+    /// block alone, to `rest`.
     pub(super) fn simplify(
         mut self,
         options: &Options,
         goal: usize,
         shared: &VertexSet,
-        next: usize,
-        stored: &Stored,
-        [vertices, triangles]: [&mut Appended; 2],
+        rest: Rest,
         monitor: &mut Monitor,
     ) -> Result<Done, OutOfCoreError> {
         let options = self.options(options, Target::Triangles(goal));
@@ -135,16 +134,25 @@ impl Loaded {
                 Some(index) => index as usize,
                 None => {
                     let rank = ranks[*source as usize];
-                    vertices.vertex(rank, &vertex_of(&result.mesh, vertex), stored.carried)?;
+                    rest.vertices.vertex(rank, &vertex_of(&result.mesh, vertex), rest.carried)?;
                     own += 1;
-                    next + own - 1
+                    rest.next + own - 1
                 }
             };
             indices.push(index as u32);
         }
         for corners in result.mesh.triangles() {
-            triangles.triangle(corners.map(|vertex| indices[vertex as usize]))?;
+            rest.triangles.triangle(corners.map(|vertex| indices[vertex as usize]))?;
         }
         Ok(Done { triangles: result.mesh.triangles().len(), vertices: own, error: result.error })
     }
+}
+
+/// Where what is left of a block goes.
+pub(super) struct Rest<'a> {
+    pub(super) vertices: &'a mut Appended,
+    pub(super) triangles: &'a mut Appended,
+    pub(super) carried: Carried,
+    /// The index of the next vertex that is appended.
+    pub(super) next: usize,
 }

@@ -113,14 +113,15 @@ pub fn is_unfinished(output: &Path) -> bool {
 /// - **Attributes** that PLY files have are carried along. While there are blocks, seams between attributes, and
 ///   with them all borders of a mesh with attributes, stay as they are (unless `keep_seams` is off); so a mesh
 ///   whose result does not fit the memory keeps its borders to the end.
-/// - **Memory**: the least is about 4 megabytes and 3 bits for each vertex of the input. What threads and the system need for themselves does not count.
+/// - **Memory**: the least is about 4 megabytes and 3 bits for each vertex of the input. What threads and the
+///   system need for themselves does not count.
 /// - **Disk**: about 40 bytes for each triangle of the input, in [`work_directory`], which must be empty,
 ///   missing, or left by a call with the same arguments that was ended: that is gone on with, from the last step
 ///   that was finished, and leads to the same result as if it had not been ended. It is removed once the output
 ///   is there. A journal that was left by other arguments, or another input (by its length and time), is an
 ///   error, and so is another process that works there.
-/// - **Time** is linear in the triangles: three to four times that of [`simplify`], beside reading and writing, where
-///   the result fits the memory.
+/// - **Time** is linear in the triangles: with reading and writing three to four times that of
+///   [`simplify`], where the result fits the memory.
 ///
 /// Errors name the file. On an error what stood at `output` still does; and the work is kept where the same call
 /// may yet succeed: after a cancel, and where the disk was full.

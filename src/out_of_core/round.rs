@@ -3,7 +3,7 @@
 use std::ops::{ControlFlow, Range};
 
 use super::OutOfCoreError;
-use super::block::Loaded;
+use super::block::{Loaded, Rest};
 use super::cut::{cut, read_shared};
 use super::journal::{Directory, Journal, Part, Round};
 use super::memory::Memory;
@@ -98,8 +98,8 @@ pub(super) fn run(
         let loaded =
             Loaded::new(stored, round, &record.blocks[block], first(record, block), &shared, directory)?;
         let (goal, next) = (goal(record, block), record.vertices());
-        let files = [&mut vertices, &mut triangles];
-        let done = loaded.simplify(options, goal, &shared, next, stored, files, &mut monitor)?;
+        let rest = Rest { vertices: &mut vertices, triangles: &mut triangles, carried: stored.carried, next };
+        let done = loaded.simplify(options, goal, &shared, rest, &mut monitor)?;
         vertices.sync()?;
         triangles.sync()?;
         journal.rounds[round].blocks[block].done = Some(done);
