@@ -102,6 +102,10 @@ impl Round {
         self.blocks.iter().filter_map(|block| block.done.as_ref())
     }
 
+    pub(super) fn is_finished(&self) -> bool {
+        self.blocks.iter().all(|block| block.done.is_some())
+    }
+
     /// How many triangles have been made so far.
     pub(super) fn triangles(&self) -> usize {
         self.done().map(|done| done.triangles).sum()

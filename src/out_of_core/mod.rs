@@ -249,7 +249,9 @@ fn reduce(
         let goal = goal(triangles, target, memory.most_at_once(per_triangle, target));
         // Nobody knows how many rounds there will be: each has most of what is left.
         let next = done + 0.75 * (SIMPLIFIED - done);
-        round::run(&stored, round, goal, journal, setting, &mut part(monitor, done..next))?;
+        if !journal.rounds.get(round).is_some_and(journal::Round::is_finished) {
+            round::run(&stored, round, goal, journal, setting, &mut part(monitor, done..next))?;
+        }
         directory.remove_round(round)?;
         let record = &journal.rounds[round];
         stored = Stored { vertices: record.vertices(), triangles: record.triangles(), ..stored };

@@ -191,8 +191,9 @@ fn seams_between_attributes_stay_closed() {
         }
         let welded = simplified.weld(Weld::Exact).unwrap().mesh;
         let found = Found::new(&welded, &Rings::new(&welded));
-        assert!(found.is_closed() && found.is_oriented_manifold(), "{found:?}");
-        assert_eq!(found.euler_characteristic(), 2);
+        // No crack; each side by itself may make an edge between two vertices of the seam, in memory as well.
+        assert!(found.is_closed() && found.inconsistent_edges == 0, "{found:?}");
+        assert_eq!(found.components, 1);
     }
 }
 
