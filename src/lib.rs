@@ -19,6 +19,7 @@
 //! | --- | --- | --- |
 //! | 5 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
 //! | 4 | [`lod`] | levels of detail on one vertex buffer: nested levels, progressive meshes |
+//! | 4 | `out_of_core` | PLY files larger than memory, simplified by way of blocks on disk (feature `io`) |
 //! | 4 | [`rate_distortion`] | terrain and semi-regular surfaces: every rate from one run, TINs, tiles |
 //! | 3 | [`hqms`] | linear-time simplification by passes of quadric edge collapses: [`simplify`], [`build_levels`] |
 //! | 3 | [`multiple_choice`] | half-edge collapse in an order drawn at random, after the paper: no vertex is made |
@@ -51,6 +52,8 @@ pub mod lod;
 pub mod mesh;
 mod monitor;
 pub mod multiple_choice;
+#[cfg(feature = "io")]
+pub mod out_of_core;
 mod quadric;
 mod random;
 pub mod rate_distortion;

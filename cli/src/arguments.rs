@@ -82,6 +82,11 @@ pub(crate) struct SimplifyArguments {
     pub(crate) target: TargetArguments,
     #[command(flatten)]
     pub(crate) engine: EngineArguments,
+    /// Take no more memory than about so many bytes (K, M and G are understood), however large the mesh is:
+    /// it is cut into blocks on disk, in a directory OUT.work that is gone at the end. The same command after
+    /// one that was ended goes on where that was. For PLY files, --triangles or --ratio, and the engine hqms.
+    #[arg(long, value_name = "SIZE")]
+    pub(crate) memory: Option<MemorySize>,
     /// Check the result against every invariant before it is written.
     #[arg(long)]
     pub(crate) verify: bool,
@@ -126,6 +131,27 @@ impl TargetArguments {
             // The parser lets nobody come without a target.
             Self { max_error: None, .. } => Target::Ratio(1.0),
         }
+    }
+}
+
+/// A number of bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct MemorySize(pub(crate) usize);
+
+impl FromStr for MemorySize {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let digits = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
+        let shift = match text[digits.len()..].to_ascii_uppercase().as_str() {
+            "" => 0,
+            "K" => 10,
+            "M" => 20,
+            "G" => 30,
+            _ => return Err("a size is a number, with K, M or G after it or nothing".to_owned()),
+        };
+        let count: usize = digits.parse().map_err(|error| format!("{error}"))?;
+        count.checked_mul(1 << shift).map(Self).ok_or_else(|| "there is not so much memory".to_owned())
     }
 }
 
@@ -496,6 +522,18 @@ mod tests {
     fn exactly_one_target() {
         for line in ["", "--triangles 1 --vertices 1", "--ratio 0.5 --max-error 1%", "--max-error 1%%"] {
             assert_eq!(parse(line).unwrap_err().exit_code(), 2, "{line}");
+        }
+    }
+
+    #[test]
+    fn sizes_of_memory() {
+        let memory = |line: &str| parse(&format!("--ratio 0.5 {line}")).map(|arguments| arguments.memory);
+        assert!(matches!(memory(""), Ok(None)));
+        for (text, bytes) in [("512M", 512 << 20), ("1g", 1 << 30), ("64k", 65536), ("1234", 1234)] {
+            assert_eq!(memory(&format!("--memory {text}")).unwrap(), Some(MemorySize(bytes)));
+        }
+        for text in ["", "M", "12T", "1.5G", "-1", "12MB", "99999999999G"] {
+            assert!(memory(&format!("--memory={text}")).is_err(), "{text}");
         }
     }
 

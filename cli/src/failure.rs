@@ -20,6 +20,8 @@ pub(crate) enum Failure {
     #[error("cannot write {}: {source}", path.display())]
     WriteOther { path: PathBuf, source: std::io::Error },
     #[error("{0}")]
+    Occupied(String),
+    #[error("{0}")]
     Options(String),
     #[error("the result is wrong, so nothing was written: {0}")]
     Verification(Violation),
@@ -36,7 +38,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Unexpected(_) => 1,
             Self::Read(_) => 3,
-            Self::Write(_) | Self::WriteOther { .. } => 4,
+            Self::Write(_) | Self::WriteOther { .. } | Self::Occupied(_) => 4,
             Self::Options(_) => 5,
             Self::Verification(_) => 6,
         })

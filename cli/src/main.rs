@@ -9,6 +9,7 @@ mod failure;
 mod files;
 mod info;
 mod levels;
+mod out_of_core;
 mod play;
 mod progress;
 mod remesh;

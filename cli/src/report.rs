@@ -125,14 +125,26 @@ pub(crate) fn stopped_by(reason: StoppedBy) -> &'static str {
     }
 }
 
+/// How many threads there are where so many were asked for.
+pub(crate) fn threads(asked: usize) -> usize {
+    match asked {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        some => some,
+    }
+}
+
+/// Tells the user, on the error stream, that an output has more triangles than were asked for.
+pub(crate) fn warn_of_size(name: &str, triangles: usize) {
+    eprintln!(
+        "decimesh: warning: {name} has {triangles} triangles, more than asked for: every further collapse would \
+         change the topology, fold a face over, or move a locked vertex"
+    );
+}
+
 /// Tells the user, on the error stream, where `result` is not what was asked for.
 pub(crate) fn warn_if_stuck(name: &str, result: &Simplified) {
     if result.stopped_by == StoppedBy::Stuck {
-        eprintln!(
-            "decimesh: warning: {name} has {} triangles, more than asked for: every further collapse would \
-             change the topology, fold a face over, or move a locked vertex",
-            result.mesh.triangles().len()
-        );
+        warn_of_size(name, result.mesh.triangles().len());
         if result.locked > 0 {
             eprintln!(
                 "decimesh: {} vertices of the input were locked, as borders or as seams between \

@@ -9,10 +9,14 @@ use crate::arguments::SimplifyArguments;
 use crate::engine;
 use crate::failure::Failure;
 use crate::files::{check_directory, check_output, read, write};
+use crate::out_of_core;
 use crate::progress::Progress;
 use crate::report::{self, SimplifyReport, grouped, significant};
 
 pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
+    if let Some(memory) = arguments.memory {
+        return out_of_core::run(arguments, memory);
+    }
     let SimplifyArguments { input, output, target, engine: engine_arguments, .. } = arguments;
     engine_arguments.check()?;
     check_output(output)?;
@@ -51,7 +55,7 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         seconds_read,
         seconds_write,
         peak_bytes,
-        threads: threads(options.threads),
+        threads: report::threads(options.threads),
         stopped_by: report::stopped_by(result.stopped_by),
         locked: result.locked,
         topology_changed: result.topology_changed,
@@ -66,13 +70,6 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         report::print(&summary(&report, &result, original.diagonal()))?;
     }
     Ok(())
-}
-
-fn threads(asked: usize) -> usize {
-    match asked {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        some => some,
-    }
 }
 
 fn summary(report: &SimplifyReport, result: &Simplified, diagonal: f64) -> String {

@@ -268,3 +268,25 @@ pub fn build_levels(
     }
     Ok(levels)
 }
+
+/// What a simplification of `mesh` comes to pay on its way: at the start and at each of `counts` of triangles,
+/// which fall, how many are left and the binary logarithm of what the next collapses cost there, which can be
+/// compared between parts of a surface. Infinity where nothing more can go.
+///
+/// [`Options::target`] is not looked at. Time and memory are those of [`simplify`] to the last of `counts`.
+#[cfg(feature = "io")]
+pub(crate) fn prices(
+    mesh: &Mesh,
+    options: &Options,
+    counts: &[usize],
+    monitor: &mut Monitor,
+) -> Result<Vec<(usize, f32)>, SimplifyError> {
+    let mut run = Run::new(Cow::Borrowed(mesh), options)?;
+    let mut prices = vec![run.price()];
+    let share = |level: usize| level as f32 / counts.len() as f32;
+    for (level, &count) in counts.iter().enumerate() {
+        run.reach(Target::Triangles(count), share(level)..share(level + 1), monitor)?;
+        prices.push(run.price());
+    }
+    Ok(prices)
+}

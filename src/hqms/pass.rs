@@ -50,6 +50,12 @@ const FEW_SAMPLES: usize = 512;
 /// such a pass removes. On scans costs rise by 4 to 8 a pass.
 const RISE: f32 = 16.0;
 const PRODUCTIVE: f32 = 0.1;
+/// The share of the vertices whose costs lie below the price of a surface.
+#[cfg(feature = "io")]
+const PRICED: f32 = 0.25;
+/// No vertex has this cost: the bits of costs are below it.
+const UNUSABLE: u32 = u32::MAX;
+
 /// By what costs are ordered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Measure {
@@ -61,9 +67,6 @@ enum Measure {
     /// triangles, for 1 to 2 % of the mean; further away, and for few triangles, it takes nothing.
     RootArea,
 }
-
-/// No vertex has this cost: the bits of costs are below it.
-const UNUSABLE: u32 = u32::MAX;
 
 impl Measure {
     /// What a ring's vertex costs by it.
@@ -198,6 +201,18 @@ fn sample(
             .collect::<Vec<_>>()
     });
     of_blocks.concat()
+}
+
+/// What the collapses cost that come next: the cost that a few of the vertices that can go do not exceed, as
+/// a cheap collapse here and there says nothing; infinity where none can go. In the scale of the surface.
+#[cfg(feature = "io")]
+pub(super) fn price(surface: &mut Surface, rules: &Rules, workers: &Workers) -> f32 {
+    let mut costs: Vec<u32> =
+        sample(surface, true, Measure::Area, rules, workers).into_iter().map(|(_, cost)| cost).collect();
+    costs.retain(|&cost| cost < UNUSABLE);
+    let index = (costs.len() as f32 * PRICED) as usize;
+    costs.sort_unstable();
+    costs.get(index).map_or(f32::INFINITY, |&cost| f32::from_bits(cost))
 }
 
 /// Whether more vertices have nowhere to go, because several seams meet at them, than the goal leaves: what is

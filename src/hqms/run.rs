@@ -3,6 +3,8 @@
 use super::finish::Finish;
 use super::goal::Goal;
 use super::order::rank;
+#[cfg(feature = "io")]
+use super::pass::price;
 use super::pass::{TILE, Threshold, ranked_pass};
 use super::{
     AttributeWeights, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
@@ -134,18 +136,7 @@ impl<'a> Run<'a> {
     ) -> Result<StoppedBy, SimplifyError> {
         check_target(target)?;
         let goal = Goal::new(target, self.triangles);
-        let error_limit = match target {
-            Target::MaxError(limit) => limit * self.surface.scale(),
-            _ => f32::INFINITY,
-        };
-        let may_relax = self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest;
-        let rules = Rules {
-            any_topology: false,
-            may_relax,
-            error_limit,
-            half_edge: moves_no_vertex(self.options),
-            extent: self.extent,
-        };
+        let rules = self.rules(target, goal);
         self.recount(goal);
         let start = self.counts;
         let mut report = |counts: Counts| {
@@ -174,6 +165,30 @@ impl<'a> Run<'a> {
             _ if goal.excess(self.counts) == 0 => StoppedBy::Target,
             _ => StoppedBy::Stuck,
         })
+    }
+
+    fn rules(&self, target: Target, goal: Goal) -> Rules {
+        let error_limit = match target {
+            Target::MaxError(limit) => limit * self.surface.scale(),
+            _ => f32::INFINITY,
+        };
+        Rules {
+            any_topology: false,
+            may_relax: self.options.topology == Topology::RelaxIfStuck && goal != Goal::Fewest,
+            error_limit,
+            half_edge: moves_no_vertex(self.options),
+            extent: self.extent,
+        }
+    }
+
+    /// How many triangles are left, and the binary logarithm of what the next collapses cost, in the units of the
+    /// input: an area times a squared distance, which can be compared between parts of a surface.
+    #[cfg(feature = "io")]
+    pub(crate) fn price(&mut self) -> (usize, f32) {
+        let target = Target::Triangles(self.counts.faces);
+        let rules = self.rules(target, Goal::new(target, self.triangles));
+        let price = price(&mut self.surface, &rules, &self.workers);
+        (self.counts.faces, price.log2() - 4.0 * self.surface.scale().log2())
     }
 
     /// Passes until the goal is near, and the finish. Where the run may have to come back, `checkpoint` is then

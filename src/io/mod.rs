@@ -34,7 +34,7 @@ mod gltf;
 pub mod heights;
 mod obj;
 mod off;
-mod ply;
+pub(crate) mod ply;
 mod replace;
 pub(crate) mod source;
 mod stl;
@@ -302,7 +302,7 @@ fn finish(
 }
 
 /// `vector` at unit length, untouched where it is so to rounding; `None` if it has no direction.
-fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
+pub(crate) fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
     let wide = glam::Vec3::from(vector).as_dvec3();
     let squared = wide.length_squared();
     if (squared - 1.0).abs() < 1e-6 { Some(vector) } else { Some(wide.try_normalize()?.as_vec3().into()) }

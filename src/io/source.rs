@@ -61,11 +61,16 @@ impl<'a> Source<'a> {
     /// An empty list with room for `count` things of at least `bytes_each` bytes in the file, but
     /// for no more than the rest of the file can hold.
     pub(crate) fn list<T>(&self, count: u64, bytes_each: u64) -> Result<Vec<T>, ReadError> {
-        let most = self.remaining().unwrap_or(BUFFER as u64) / bytes_each.max(1) + 1;
         let mut list = Vec::new();
-        list.try_reserve_exact(usize::try_from(count.min(most)).unwrap_or(usize::MAX))
+        list.try_reserve_exact(self.room(count, bytes_each))
             .map_err(|_| ReadError::Io(ErrorKind::OutOfMemory.into()))?;
         Ok(list)
+    }
+
+    /// For how many of `count` things of at least `bytes_each` bytes it makes sense to make room.
+    pub(crate) fn room(&self, count: u64, bytes_each: u64) -> usize {
+        let most = self.remaining().unwrap_or(BUFFER as u64) / bytes_each.max(1) + 1;
+        usize::try_from(count.min(most)).unwrap_or(usize::MAX)
     }
 
     /// The next bytes, up to `count` of them, without moving on.

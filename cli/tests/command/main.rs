@@ -5,6 +5,7 @@ mod demo;
 mod help;
 mod info;
 mod levels;
+mod out_of_core;
 mod play;
 mod remesh;
 mod simplify;

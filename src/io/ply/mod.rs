@@ -3,71 +3,19 @@
 //! A scan is a PLY file of up to some hundred million triangles, so nothing is allocated per
 //! vertex or per face and the file is never in memory as a whole.
 
-use std::io::{self, Write};
+mod header;
+mod write;
+
+use std::io;
 use std::ops::Range;
 
 use super::source::{Source, check_vertex_count};
-use super::text::{number, quoted, words, write_elements};
-use super::{Encoding, Fan, ReadError, Strip, WriteError, finish};
+use super::text::{number, quoted};
+use super::{Encoding, Fan, ReadError, Strip, finish};
 use crate::mesh::{Attributes, Mesh};
-
-#[derive(Clone, Copy)]
-enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"char" | b"int8" => Self::I8,
-            b"uchar" | b"uint8" => Self::U8,
-            b"short" | b"int16" => Self::I16,
-            b"ushort" | b"uint16" => Self::U16,
-            b"int" | b"int32" => Self::I32,
-            b"uint" | b"uint32" => Self::U32,
-            b"float" | b"float32" => Self::F32,
-            b"double" | b"float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-
-    fn is_integer(self) -> bool {
-        !matches!(self, Self::F32 | Self::F64)
-    }
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Scalar(Scalar),
-    List { length: Scalar, item: Scalar },
-}
-
-struct Property {
-    name: Vec<u8>,
-    kind: Kind,
-}
-
-struct Element {
-    name: Vec<u8>,
-    count: u64,
-    properties: Vec<Property>,
-}
+use header::{Element, Kind, Property, Scalar, read_header};
+pub(super) use write::write;
+pub(crate) use write::write_header;
 
 /// One row after the other, value by value. Every value of every PLY type fits an `f64`.
 trait Values<'a> {
@@ -209,94 +157,126 @@ impl<'a> Values<'a> for Ascii<'_, 'a> {
     }
 }
 
+/// Which attributes the vertices of a file carry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub(crate) struct Carried {
+    pub(crate) normals: bool,
+    pub(crate) colors: bool,
+    pub(crate) uvs: bool,
+}
+
+impl Carried {
+    /// Those of `attributes`.
+    pub(crate) fn of(attributes: &Attributes) -> Self {
+        let Attributes { normals, colors, uvs } = attributes;
+        Self { normals: normals.is_some(), colors: colors.is_some(), uvs: uvs.is_some() }
+    }
+}
+
+/// A vertex as a file has it; what the file does not carry says nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Vertex {
+    pub(crate) position: [f32; 3],
+    /// Of any length.
+    pub(crate) normal: [f32; 3],
+    pub(crate) color: [u8; 4],
+    pub(crate) uv: [f32; 2],
+}
+
+/// Takes in what a file holds, row by row: all vertices in one go, before, between or after triangles.
+pub(crate) trait Sink {
+    /// Vertices follow, which carry these; `room` is how many, or at least for how many it makes sense to
+    /// make room.
+    fn begin_vertices(&mut self, carried: Carried, room: usize) -> Result<(), ReadError>;
+    fn vertex(&mut self, vertex: &Vertex) -> Result<(), ReadError>;
+    /// Triangles follow, `room` of them or more: polygons have several.
+    fn begin_triangles(&mut self, room: usize) -> Result<(), ReadError>;
+    /// Three vertices that the file has.
+    fn triangle(&mut self, corners: [u32; 3]) -> Result<(), ReadError>;
+}
+
+/// A mesh in memory.
+#[derive(Default)]
+struct Whole {
+    positions: Vec<[f32; 3]>,
+    attributes: Attributes,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Makes room for so many more.
+fn reserve<T>(list: &mut Vec<T>, room: usize) -> Result<(), ReadError> {
+    list.try_reserve_exact(room).map_err(|_| ReadError::Io(io::ErrorKind::OutOfMemory.into()))
+}
+
+/// An empty list with room for so many, if they are `carried`.
+fn list<T>(carried: bool, room: usize) -> Result<Option<Vec<T>>, ReadError> {
+    let mut list = carried.then(Vec::new);
+    list.iter_mut().try_for_each(|list| reserve(list, room))?;
+    Ok(list)
+}
+
+impl Sink for Whole {
+    fn begin_vertices(&mut self, carried: Carried, room: usize) -> Result<(), ReadError> {
+        reserve(&mut self.positions, room)?;
+        self.attributes = Attributes {
+            normals: list(carried.normals, room)?,
+            colors: list(carried.colors, room)?,
+            uvs: list(carried.uvs, room)?,
+        };
+        Ok(())
+    }
+
+    #[inline]
+    fn vertex(&mut self, vertex: &Vertex) -> Result<(), ReadError> {
+        self.positions.push(vertex.position);
+        if let Some(normals) = &mut self.attributes.normals {
+            normals.push(vertex.normal);
+        }
+        if let Some(colors) = &mut self.attributes.colors {
+            colors.push(vertex.color);
+        }
+        if let Some(uvs) = &mut self.attributes.uvs {
+            uvs.push(vertex.uv);
+        }
+        Ok(())
+    }
+
+    fn begin_triangles(&mut self, room: usize) -> Result<(), ReadError> {
+        reserve(&mut self.triangles, room)
+    }
+
+    #[inline]
+    fn triangle(&mut self, corners: [u32; 3]) -> Result<(), ReadError> {
+        self.triangles.push(corners);
+        Ok(())
+    }
+}
+
 pub(super) fn read(source: &mut Source) -> Result<Mesh, ReadError> {
+    let mut whole = Whole::default();
+    stream(source, &mut whole)?;
+    let Whole { positions, attributes, triangles } = whole;
+    finish(positions, triangles, attributes)
+}
+
+/// Reads all of a file into `sink`, in little memory.
+pub(crate) fn stream(source: &mut Source, sink: &mut impl Sink) -> Result<(), ReadError> {
     let (encoding, elements) = read_header(source)?;
     match encoding {
-        Encoding::Ascii => read_elements(&mut Ascii { source, line: Vec::new(), at: 0 }, &elements),
-        Encoding::Binary => read_elements(&mut Binary::<false> { source }, &elements),
-        Encoding::BinaryBigEndian => read_elements(&mut Binary::<true> { source }, &elements),
+        Encoding::Ascii => read_elements(&mut Ascii { source, line: Vec::new(), at: 0 }, &elements, sink),
+        Encoding::Binary => read_elements(&mut Binary::<false> { source }, &elements, sink),
+        Encoding::BinaryBigEndian => read_elements(&mut Binary::<true> { source }, &elements, sink),
     }
 }
 
-fn read_header(source: &mut Source) -> Result<(Encoding, Vec<Element>), ReadError> {
-    if source.peek(3)? != b"ply" || source.next_line()?.is_none_or(|line| line.trim_ascii() != b"ply") {
-        return Err(source.error_here("a PLY file starts with a line 'ply', and this one does not"));
-    }
-    let mut encoding = None;
-    let mut elements: Vec<Element> = Vec::new();
-    loop {
-        let Some(line) = source.next_line()? else {
-            return Err(source.error_in_line("the file ends within the header, before 'end_header'"));
-        };
-        match header_line(line, &mut encoding, &mut elements) {
-            Ok(true) => break,
-            Ok(false) => {}
-            Err(problem) => return Err(source.error_in_line(problem)),
-        }
-    }
-    match encoding {
-        Some(encoding) => Ok((encoding, elements)),
-        None => Err(source.error_in_line("the header ends without a 'format' line")),
-    }
-}
-
-/// Takes in one line; `true` if it is the last.
-fn header_line(
-    line: &[u8],
-    encoding: &mut Option<Encoding>,
-    elements: &mut Vec<Element>,
-) -> Result<bool, String> {
-    let mut words = words(line);
-    match words.next().unwrap_or_default() {
-        b"" | b"comment" | b"obj_info" => {}
-        b"end_header" => return Ok(true),
-        b"format" => {
-            *encoding = Some(match words.next().unwrap_or_default() {
-                b"ascii" => Encoding::Ascii,
-                b"binary_little_endian" => Encoding::Binary,
-                b"binary_big_endian" => Encoding::BinaryBigEndian,
-                other => return Err(format!("{} is no PLY format", quoted(other))),
-            });
-        }
-        b"element" => {
-            let name = words.next().unwrap_or_default().to_vec();
-            let count = number(words.next().unwrap_or_default())?;
-            if elements.iter().any(|element| element.name == name) {
-                return Err(format!("there is a second element {}", quoted(&name)));
-            }
-            elements.push(Element { name, count, properties: Vec::new() });
-        }
-        b"property" => {
-            let element = elements.last_mut().ok_or("a property stands before any element")?;
-            let scalar = |word: Option<&[u8]>| {
-                let word = word.unwrap_or_default();
-                Scalar::named(word).ok_or_else(|| format!("{} is no PLY type", quoted(word)))
-            };
-            let kind = match words.next() {
-                Some(b"list") => {
-                    let (length, item) = (scalar(words.next())?, scalar(words.next())?);
-                    if !length.is_integer() {
-                        return Err("the length of a list is no integer type".to_owned());
-                    }
-                    Kind::List { length, item }
-                }
-                word => Kind::Scalar(scalar(word)?),
-            };
-            let name = words.next().ok_or("a property has no name")?.to_vec();
-            element.properties.push(Property { name, kind });
-        }
-        other => return Err(format!("{} does not belong into a PLY header", quoted(other))),
-    }
-    Ok(false)
-}
-
-fn read_elements<'a, V: Values<'a>>(values: &mut V, elements: &[Element]) -> Result<Mesh, ReadError> {
+fn read_elements<'a, V: Values<'a>>(
+    values: &mut V,
+    elements: &[Element],
+    sink: &mut impl Sink,
+) -> Result<(), ReadError> {
     let vertices = elements.iter().find(|element| element.name == b"vertex");
     let vertices = vertices.map_or(0, |element| element.count);
     check_vertex_count(vertices)?;
-    let mut positions = Vec::new();
-    let mut attributes = Attributes::default();
-    let mut triangles = Vec::new();
     for element in elements.iter().filter(|element| element.count > 0) {
         let least_bytes = element.properties.iter().map(|property| match property.kind {
             Kind::Scalar(scalar) => V::least_bytes(scalar),
@@ -309,27 +289,29 @@ fn read_elements<'a, V: Values<'a>>(values: &mut V, elements: &[Element]) -> Res
             &format!("rows of element '{}'", shown(element)),
         )?;
         match element.name.as_slice() {
-            b"vertex" => (positions, attributes) = read_vertices(values, element, least_bytes)?,
+            b"vertex" => read_vertices(values, element, least_bytes, sink)?,
             b"face" => {
-                // A file may hold more than one list of triangles: faces, strips.
-                let mut faces = values.source().list(element.count, least_bytes)?;
+                sink.begin_triangles(values.source().room(element.count, least_bytes))?;
                 read_lists(values, element, |rows, length, item| {
                     let mut fan = Fan::default();
                     for _ in 0..length {
                         if let Some(triangle) = fan.push(index(rows.next(item)?, vertices, rows)?) {
-                            faces.push(triangle);
+                            sink.triangle(triangle)?;
                         }
                     }
                     Ok(())
                 })?;
-                if triangles.is_empty() { triangles = faces } else { triangles.append(&mut faces) }
             }
             b"tristrips" => read_lists(values, element, |rows, length, item| {
                 let mut strip = Strip::default();
                 for _ in 0..length {
                     match rows.next(item)? {
                         -1.0 => strip = Strip::default(),
-                        corner => triangles.extend(strip.push(index(corner, vertices, rows)?)),
+                        corner => {
+                            if let Some(triangle) = strip.push(index(corner, vertices, rows)?) {
+                                sink.triangle(triangle)?;
+                            }
+                        }
                     }
                 }
                 Ok(())
@@ -341,7 +323,7 @@ fn read_elements<'a, V: Values<'a>>(values: &mut V, elements: &[Element]) -> Res
             })?,
         }
     }
-    finish(positions, triangles, attributes)
+    Ok(())
 }
 
 /// Calls `read_row` for every row of `element`, and says of an error which row it is in.
@@ -451,7 +433,8 @@ fn read_vertices<'a, V: Values<'a>>(
     values: &mut V,
     element: &Element,
     least_bytes: u64,
-) -> Result<(Vec<[f32; 3]>, Attributes), ReadError> {
+    sink: &mut impl Sink,
+) -> Result<(), ReadError> {
     let mut present = [false; SLOTS];
     // For each property where it goes, and the factor: integer colours count to 255, others to 1.
     let targets: Vec<Option<(usize, f64)>> = element
@@ -470,12 +453,9 @@ fn read_vertices<'a, V: Values<'a>>(
         let name = ["x", "y", "z"][missing];
         return Err(values.error(format!("the vertices have no property '{name}'")));
     }
-    let source = values.source();
     let has = |slots: Range<usize>| present[slots].iter().all(|&present| present);
-    let mut positions = source.list(element.count, least_bytes)?;
-    let mut normals = has(NORMAL..COLOR).then(|| source.list(element.count, least_bytes)).transpose()?;
-    let mut colors = has(COLOR..ALPHA).then(|| source.list(element.count, least_bytes)).transpose()?;
-    let mut uvs = has(UV..SLOTS).then(|| source.list(element.count, least_bytes)).transpose()?;
+    let carried = Carried { normals: has(NORMAL..COLOR), colors: has(COLOR..ALPHA), uvs: has(UV..SLOTS) };
+    sink.begin_vertices(carried, values.source().room(element.count, least_bytes))?;
     let mut vertex = [0.0; SLOTS];
     vertex[ALPHA] = 255.0;
     read_rows(values, element, |rows| {
@@ -486,82 +466,11 @@ fn read_vertices<'a, V: Values<'a>>(
             }
         }
         let [x, y, z, nx, ny, nz, red, green, blue, alpha, u, v] = vertex;
-        positions.push([x as f32, y as f32, z as f32]);
-        if let Some(normals) = &mut normals {
-            normals.push([nx as f32, ny as f32, nz as f32]);
-        }
-        if let Some(colors) = &mut colors {
-            colors.push([red, green, blue, alpha].map(|value| value.round() as u8));
-        }
-        if let Some(uvs) = &mut uvs {
-            uvs.push([u as f32, v as f32]);
-        }
-        Ok(())
-    })?;
-    Ok((positions, Attributes { normals, colors, uvs }))
-}
-
-pub(super) fn write(mesh: &Mesh, encoding: Encoding, writer: &mut impl Write) -> Result<(), WriteError> {
-    let Attributes { normals, colors, uvs } = mesh.attributes();
-    let name = match encoding {
-        Encoding::Ascii => "ascii",
-        Encoding::Binary => "binary_little_endian",
-        Encoding::BinaryBigEndian => "binary_big_endian",
-    };
-    write!(writer, "ply\nformat {name} 1.0\nelement vertex {}\n", mesh.positions().len())?;
-    writer.write_all(b"property float x\nproperty float y\nproperty float z\n")?;
-    if normals.is_some() {
-        writer.write_all(b"property float nx\nproperty float ny\nproperty float nz\n")?;
-    }
-    if colors.is_some() {
-        for channel in ["red", "green", "blue", "alpha"] {
-            writeln!(writer, "property uchar {channel}")?;
-        }
-    }
-    if uvs.is_some() {
-        writer.write_all(b"property float s\nproperty float t\n")?;
-    }
-    // Most readers expect `int`, which ends at half of what an index can be.
-    let index = if mesh.positions().len() > i32::MAX as usize { "uint" } else { "int" };
-    let faces = mesh.triangles().len();
-    write!(writer, "element face {faces}\nproperty list uchar {index} vertex_indices\nend_header\n")?;
-    match encoding {
-        Encoding::Ascii => write_ascii(mesh, writer)?,
-        Encoding::Binary => write_binary(mesh, writer, f32::to_le_bytes, u32::to_le_bytes)?,
-        Encoding::BinaryBigEndian => write_binary(mesh, writer, f32::to_be_bytes, u32::to_be_bytes)?,
-    }
-    Ok(())
-}
-
-fn write_ascii(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
-    write_elements(mesh, writer, |writer, [red, green, blue, alpha]| {
-        write!(writer, " {red} {green} {blue} {alpha}")
+        sink.vertex(&Vertex {
+            position: [x as f32, y as f32, z as f32],
+            normal: [nx as f32, ny as f32, nz as f32],
+            color: [red, green, blue, alpha].map(|value| value.round() as u8),
+            uv: [u as f32, v as f32],
+        })
     })
-}
-
-fn write_binary(
-    mesh: &Mesh,
-    writer: &mut impl Write,
-    float: fn(f32) -> [u8; 4],
-    index: fn(u32) -> [u8; 4],
-) -> io::Result<()> {
-    let Attributes { normals, colors, uvs } = mesh.attributes();
-    for (vertex, position) in mesh.positions().iter().enumerate() {
-        writer.write_all(position.map(float).as_flattened())?;
-        if let Some(normals) = normals {
-            writer.write_all(normals[vertex].map(float).as_flattened())?;
-        }
-        if let Some(colors) = colors {
-            writer.write_all(&colors[vertex])?;
-        }
-        if let Some(uvs) = uvs {
-            writer.write_all(uvs[vertex].map(float).as_flattened())?;
-        }
-    }
-    for triangle in mesh.triangles() {
-        let mut face = [3; 13];
-        face[1..].copy_from_slice(triangle.map(index).as_flattened());
-        writer.write_all(&face)?;
-    }
-    Ok(())
 }
