@@ -17,6 +17,8 @@ mod replacement;
 mod run;
 #[cfg(feature = "bench-internals")]
 pub(crate) mod stages;
+#[cfg(feature = "deviation")]
+pub(crate) mod steps;
 
 pub use crate::collapse::HalfEdge;
 pub use crate::collapse::attributes::AttributeWeights;
