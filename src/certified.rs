@@ -20,11 +20,11 @@ use crate::workers::Workers;
 
 /// Steps, those that are done over included.
 const ATTEMPTS: usize = 8;
-/// By how much the share grows of what is left of the limit that a step may spend, as estimated: the estimate
-/// says too much of most places, and the more of them are full, the less harm does a larger share.
-const PACE: f32 = 2.0;
+/// By how much the share grows of what is left of the limit that a step may spend, as estimated and up to the whole
+/// limit: the estimate says too much of most places, and the more of them are full, the less harm does a larger share.
+const PACE: f32 = 3.0;
 /// The largest such share.
-const FASTEST: f32 = 8.0;
+const FASTEST: f32 = 9.0;
 /// What is left of the share where a point was beyond the limit.
 const RETREAT: f32 = 0.3;
 /// A step that leaves more than this of the triangles, at the fastest, is the last.
@@ -152,7 +152,7 @@ impl Held<'_> {
             let simplified = &step.certified.simplified;
             let spent = least(origins(simplified), &trust, simplified.mesh.positions().len())
                 .zip(&step.farthest)
-                .map(|(trust, farthest)| limit - pace * trust * (limit - farthest).max(0.0))
+                .map(|(trust, farthest)| limit - trust * (pace * (limit - farthest).max(0.0)).min(limit))
                 .collect::<Vec<f32>>();
             let mut simplifying = monitor.part(share(0.0)..share(SIMPLIFIED));
             let result = steps.try_within(limit, (&simplified.mesh, &spent), &mut simplifying)?;
