@@ -641,7 +641,7 @@ struct Certified {
 /// input comes back, without the vertices that no triangle uses, at distance 0.
 ///
 /// At most nine times the time of `bound`: some ten to sixty microseconds a triangle. About 230 bytes a triangle of a
-/// closed mesh, and at most 160 for each of 32 parts a triangle that have to be looked at.
+/// closed mesh, and at most 120 for each of 32 parts a triangle that have to be looked at.
 Certified simplify_within(MeshView mesh, double max_error, const Options &options = {});
 
 /// What a call on the caller's own buffers leaves in them.

@@ -58,7 +58,7 @@ pub struct Certified {
 ///
 /// This takes at most nine times what [`bound`](crate::deviation::bound()) takes, and simplifies as often, though
 /// less and less: some ten to sixty microseconds a triangle. At its peak it holds about 230 bytes a triangle of a
-/// closed mesh, and what is not settled yet: at most 160 bytes for each of 32 parts a triangle and a million. The
+/// closed mesh, and what is not settled yet: at most 120 bytes for each of 32 parts a triangle and a million. The
 /// result is the same, byte for byte, for any number of threads.
 ///
 /// Fails as `simplify` does, and where `max_error` is negative, infinite or not a number. The monitor may cancel.
@@ -166,8 +166,12 @@ impl Held<'_> {
             let next = self.step(result, &apart);
             if apart.upper <= self.max_error {
                 let left = next.triangles() as f64 / step.triangles() as f64;
-                steps.keep();
-                step = next;
+                // Where nothing was collapsed, what is known of the surface stays what it was: at first, that it is
+                // the input's.
+                if left < 1.0 {
+                    steps.keep();
+                    step = next;
+                }
                 if left > STALLED && pace >= FASTEST {
                     break;
                 }

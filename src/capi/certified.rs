@@ -24,7 +24,7 @@ use crate::hqms::Target;
 /// _THREADS or _OUT_OF_MEMORY.
 ///
 /// At most nine times the time of decimesh_bound(): some ten to sixty microseconds a triangle. About 230 bytes of
-/// memory a triangle, and at most 160 for each of 32 parts a triangle that have to be looked at. The result is the
+/// memory a triangle, and at most 120 for each of 32 parts a triangle that have to be looked at. The result is the
 /// same, byte for byte, for any number of threads. Any thread; progress is told on the calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_simplify_within(
