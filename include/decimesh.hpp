@@ -640,7 +640,7 @@ struct Certified {
 /// `Options::target` is not looked at, and the topology is kept. Where nothing smaller can be shown to be so close, the
 /// input comes back, without the vertices that no triangle uses, at distance 0.
 ///
-/// At most nine times the time of `bound`: some ten to sixty microseconds a triangle. About 230 bytes a triangle of a
+/// At most nine times the time of `bound`: some ten to 200 microseconds a triangle. About 280 bytes a triangle of a
 /// closed mesh, and at most 120 for each of 32 parts a triangle that have to be looked at.
 Certified simplify_within(MeshView mesh, double max_error, const Options &options = {});
 

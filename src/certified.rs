@@ -57,7 +57,7 @@ pub struct Certified {
 /// that sticks out of the rest by more than `max_error` cannot go, and nothing else does then.
 ///
 /// This takes at most nine times what [`bound`](crate::deviation::bound()) takes, and simplifies as often, though
-/// less and less: some ten to sixty microseconds a triangle. At its peak it holds about 230 bytes a triangle of a
+/// less and less: some ten to 200 microseconds a triangle. At its peak it holds about 280 bytes a triangle of a
 /// closed mesh, and what is not settled yet: at most 120 bytes for each of 32 parts a triangle and a million. The
 /// result is the same, byte for byte, for any number of threads.
 ///

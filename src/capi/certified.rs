@@ -23,7 +23,7 @@ use crate::hqms::Target;
 /// _UNKNOWN_OPTION, _ENUM, _OPTION (also for a max_error that is negative, infinite or not a number), _CANCELLED,
 /// _THREADS or _OUT_OF_MEMORY.
 ///
-/// At most nine times the time of decimesh_bound(): some ten to sixty microseconds a triangle. About 230 bytes of
+/// At most nine times the time of decimesh_bound(): some ten to 200 microseconds a triangle. About 280 bytes of
 /// memory a triangle, and at most 120 for each of 32 parts a triangle that have to be looked at. The result is the
 /// same, byte for byte, for any number of threads. Any thread; progress is told on the calling one.
 #[unsafe(no_mangle)]
