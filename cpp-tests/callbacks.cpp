@@ -150,6 +150,10 @@ TEST_CASE("callbacks: exceptions arrive from every step as they were thrown") {
         decimesh::bound(mesh, levels.mesh(), bounding);
         levels.certify(bounding);
     });
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        options.progress = progress;
+        decimesh::simplify_within(mesh, 0.05, options);
+    });
     CHECK(bytes_of(mesh) == before);
 }
 

@@ -70,6 +70,9 @@ TEST_CASE("errors: NULL meshes and paths are named") {
     refused(decimesh_mesh_statistics(mesh, nullptr), "statistics is NULL");
     refused(decimesh_simplify(nullptr, &options, &made, nullptr), "mesh is NULL");
     refused(decimesh_simplify(mesh, &options, nullptr, nullptr), "simplified is NULL");
+    refused(decimesh_simplify_within(nullptr, 1, &options, &made, nullptr, &bound), "mesh is NULL");
+    refused(decimesh_simplify_within(mesh, 1, nullptr, &made, nullptr, &bound), "options is NULL");
+    refused(decimesh_simplify_within(mesh, 1, &options, nullptr, nullptr, &bound), "simplified is NULL");
     refused(decimesh_levels_build(nullptr, &options, values, 1, &levels), "mesh is NULL");
     refused(decimesh_levels_build(mesh, &options, nullptr, 1, &levels), "target_values is NULL");
     refused(decimesh_levels_build(mesh, &options, values, 1, nullptr), "levels is NULL");

@@ -324,6 +324,12 @@ TEST_CASE("errors: structs that are written may be older or newer") {
     check_written_sizes<decimesh_bound_result>("decimesh_bound_result", [&](decimesh_bound_result *raw) {
         return decimesh_bound(mesh.get(), mesh.get(), nullptr, raw);
     });
+    check_written_sizes<decimesh_bound_result>("decimesh_bound_result", [&](decimesh_bound_result *raw) {
+        decimesh_mesh *made = nullptr;
+        const decimesh_status status = decimesh_simplify_within(mesh.get(), 0.1, &options, &made, nullptr, raw);
+        decimesh_mesh_destroy(made);
+        return status;
+    });
     const decimesh::NestedLevels nested = decimesh::NestedLevels::build(mesh, {decimesh::Target::ratio(0.5)});
     check_written_sizes<decimesh_nested_level>("decimesh_nested_level", [&](decimesh_nested_level *raw) {
         return decimesh_nested_describe(nested.get(), 1, raw);

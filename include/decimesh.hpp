@@ -630,6 +630,20 @@ struct Simplified {
 /// Linear time; at its peak about 36 bytes a triangle of a closed mesh, and the result.
 Simplified simplify(MeshView mesh, const Options &options = {});
 
+/// A simplified mesh, and what its distance from the input is guaranteed to be.
+struct Certified {
+    Simplified simplified;  ///< its `report.error` is `bound.upper` too, rounded upwards
+    Bound bound;            ///< `upper` is at most what was asked for
+};
+
+/// Simplifies `mesh` to few triangles whose two-sided Hausdorff distance from it is proven to be at most `max_error`.
+/// `Options::target` is not looked at, and the topology is kept. Where nothing smaller can be shown to be so close, the
+/// input comes back, without the vertices that no triangle uses, at distance 0.
+///
+/// At most nine times the time of `bound`: some ten to 200 microseconds a triangle. About 280 bytes a triangle of a
+/// closed mesh, and at most 120 for each of 32 parts a triangle that have to be looked at.
+Certified simplify_within(MeshView mesh, double max_error, const Options &options = {});
+
 /// What a call on the caller's own buffers leaves in them.
 struct SimplifiedIndices {
     std::size_t index_count;   ///< how many of the indices count: the first ones
@@ -1240,6 +1254,19 @@ inline Simplified simplify(MeshView mesh, const Options &options) {
     Mesh result = Mesh::adopt(simplified);
     call.check(status);
     return {std::move(result), detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
+}
+
+inline Certified simplify_within(MeshView mesh, double max_error, const Options &options) {
+    detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
+    call.ask_for_groups(mesh.triangle_count());
+    decimesh_mesh *simplified = nullptr;
+    auto bound = detail::sized<decimesh_bound_result>();
+    const decimesh_status status =
+        decimesh_simplify_within(mesh.get(), max_error, &call.raw, &simplified, &call.report, &bound);
+    Mesh result = Mesh::adopt(simplified);
+    call.check(status);
+    return {{std::move(result), detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)},
+            {bound.lower, bound.upper, bound.diagonal, bound.pieces}};
 }
 
 template <class Index>

@@ -18,6 +18,7 @@
 //! | floor | room | what it is for |
 //! | --- | --- | --- |
 //! | 5 | [`capi`] | the C ABI that `include/decimesh.h` declares (feature `capi`) |
+//! | 4 | `certified` | simplification within a guaranteed error: [`simplify_within`] (feature `deviation`) |
 //! | 4 | [`lod`] | levels of detail on one vertex buffer: nested levels, progressive meshes |
 //! | 4 | `out_of_core` | PLY files larger than memory, simplified by way of blocks on disk (feature `io`) |
 //! | 4 | [`rate_distortion`] | terrain and semi-regular surfaces: every rate from one run, TINs, tiles |
@@ -37,6 +38,8 @@
 
 #[cfg(feature = "capi")]
 pub mod capi;
+#[cfg(feature = "deviation")]
+pub mod certified;
 mod collapse;
 #[cfg(feature = "deviation")]
 pub mod deviation;
@@ -59,6 +62,8 @@ mod random;
 pub mod rate_distortion;
 mod workers;
 
+#[cfg(feature = "deviation")]
+pub use certified::{Certified, simplify_within};
 pub use hqms::{
     AttributeWeights, HalfEdge, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target,
     Topology, build_levels, simplify, simplify_owned,

@@ -1,6 +1,8 @@
 //! Progress and cancel, in one.
 
 use std::ops::ControlFlow;
+#[cfg(feature = "deviation")]
+use std::ops::Range;
 
 /// Watches a long computation: is told how far it has come, and may end it.
 ///
@@ -40,5 +42,14 @@ impl<'a> Monitor<'a> {
             },
             None => Ok(()),
         }
+    }
+
+    /// A monitor for a part of the work, whose fractions lie in this `share` of the whole.
+    #[cfg(feature = "deviation")]
+    pub(crate) fn part(&mut self, share: Range<f32>) -> Monitor<'_> {
+        Monitor::new(move |done| match self.report(share.start + (share.end - share.start) * done) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Cancelled) => ControlFlow::Break(()),
+        })
     }
 }

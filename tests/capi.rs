@@ -8,7 +8,9 @@ use decimesh::capi::*;
 use decimesh::lod::{NestedLevels, Progressive};
 use decimesh::mesh::{Attributes, Mesh, shapes};
 use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, HeightField};
-use decimesh::{AttributeWeights, Monitor, Options, Placement, Target, build_levels, simplify};
+use decimesh::{
+    AttributeWeights, Monitor, Options, Placement, Target, build_levels, simplify, simplify_within,
+};
 use proptest::prelude::*;
 
 mod c_calls;
@@ -216,6 +218,39 @@ proptest! {
             decimesh_progressive_destroy(handle);
             decimesh_mesh_destroy(own);
         }
+    }
+}
+
+#[test]
+fn a_certified_error_is_that_of_rust() {
+    let mesh = stone();
+    for (placement, in_c) in
+        [(Placement::Optimal, DECIMESH_PLACEMENT_OPTIMAL), (Placement::Existing, DECIMESH_PLACEMENT_EXISTING)]
+    {
+        let rust = Options { placement, track_origins: true, ..Options::new(Target::Ratio(0.5)) };
+        let expected = simplify_within(&mesh, 0.02, &rust, &mut Monitor::silent()).expect("options are good");
+        let mut origins = vec![0; mesh.positions().len()];
+        let mut options = c_calls::options();
+        options.placement = in_c;
+        options.origins = origins.as_mut_ptr();
+        let buffers = c_calls::buffers(&mesh);
+        let mut report = c_calls::report();
+        // SAFETY: the pointers point to what the calls' comments say, and each handle is destroyed last.
+        unsafe {
+            let mut bound = std::mem::zeroed::<decimesh_bound_result>();
+            decimesh_bound_result_init(&mut bound, size_of::<decimesh_bound_result>());
+            let (mut own, mut found) = (ptr::null_mut(), ptr::null_mut());
+            succeeded(decimesh_mesh_from_buffers(&buffers, &mut own));
+            succeeded(decimesh_simplify_within(own, 0.02, &options, &mut found, &mut report, &mut bound));
+            assert_eq!((bound.lower, bound.upper), (expected.bound.lower, expected.bound.upper));
+            assert_eq!(report.error.to_bits(), expected.simplified.error.to_bits());
+            let count = 3 * decimesh_mesh_triangle_count(found);
+            let indices = std::slice::from_raw_parts(decimesh_mesh_indices(found), count);
+            assert_eq!(indices, expected.simplified.mesh.triangles().as_flattened());
+            decimesh_mesh_destroy(found);
+            decimesh_mesh_destroy(own);
+        }
+        assert_eq!(Some(origins), expected.simplified.origins);
     }
 }
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use decimesh::capi::decimesh_status_name;
 
 /// In the order in which a reader wants them.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "version",
     "status",
     "progress",
@@ -22,6 +22,7 @@ const SOURCES: [&str; 15] = [
     "levels",
     "deviation",
     "bound",
+    "certified",
     "nested",
     "progressive",
     "player",

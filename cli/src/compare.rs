@@ -7,7 +7,7 @@ use crate::arguments::CompareArguments;
 use crate::failure::Failure;
 use crate::files::read;
 use crate::progress::Progress;
-use crate::report::{self, percent, significant, table};
+use crate::report::{self, BoundReport, percent, significant, table};
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let reference = read(&arguments.reference, None)?;
@@ -44,23 +44,9 @@ struct CompareReport {
     bound: Option<BoundReport>,
 }
 
-/// What `compare --bound` adds: no point is farther away than `upper`, and some are as far as `lower`.
-#[derive(Debug, Serialize)]
-struct BoundReport {
-    lower: f64,
-    upper: f64,
-    lower_rel: f64,
-    upper_rel: f64,
-}
-
 impl CompareReport {
     fn new(measured: &Deviation, bound: Option<Bound>) -> Self {
-        let bound = bound.map(|bound| BoundReport {
-            lower: bound.lower,
-            upper: bound.upper,
-            lower_rel: bound.lower_rel(),
-            upper_rel: bound.upper_rel(),
-        });
+        let bound = bound.map(BoundReport::from);
         Self {
             rms: measured.rms,
             mean: measured.mean,

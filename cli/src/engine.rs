@@ -3,7 +3,7 @@
 use decimesh::deviation::{Sampling, deviation};
 use decimesh::mesh::verify;
 use decimesh::multiple_choice::{Cost, Decimation, Selection};
-use decimesh::{Mesh, Monitor, Options, Simplified, StoppedBy, Target, Topology};
+use decimesh::{Certified, Mesh, Monitor, Options, Simplified, StoppedBy, Target, Topology};
 
 use crate::arguments::{EngineArguments, EngineName};
 use crate::failure::Failure;
@@ -21,6 +21,21 @@ pub(crate) fn simplify(
         }
         EngineName::MultipleChoice => multiple_choice(original, target, arguments, monitor),
     }
+}
+
+/// `original`, simplified to triangles that are proven to be within `max_error`.
+pub(crate) fn simplify_within(
+    original: &Mesh,
+    max_error: f64,
+    arguments: &EngineArguments,
+    monitor: &mut Monitor,
+) -> Result<Certified, Failure> {
+    if arguments.engine == EngineName::MultipleChoice {
+        let message = "--certify is for the engines hqms and indices";
+        return Err(Failure::Options(message.into()));
+    }
+    let options = arguments.options(Target::MaxError(0.0));
+    Ok(decimesh::simplify_within(original, max_error, &options, monitor)?)
 }
 
 /// The paper's engine. It does not estimate the error it makes, so that is measured.

@@ -4,6 +4,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use comfy_table::{CellAlignment, Table, presets};
+use decimesh::deviation::Bound;
 use decimesh::{Mesh, Simplified, StoppedBy};
 use serde::Serialize;
 
@@ -32,11 +33,32 @@ pub(crate) struct SimplifyReport {
     /// Vertices that were not to move: borders and seams.
     pub(crate) locked: usize,
     pub(crate) topology_changed: bool,
-    /// Estimated, in units of the positions; measured for the engine multiple-choice.
+    /// Estimated, in units of the positions; measured for the engine multiple-choice; with `--certify` the bound.
     pub(crate) error: f32,
+    /// With `--certify`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) bound: Option<BoundReport>,
     /// Estimated, weighted; 0 where no attribute has a weight.
     pub(crate) attribute_error: f32,
     pub(crate) passes: usize,
+}
+
+/// What `compare --bound` and `simplify --certify` add: no point is farther away than `upper`, and some are as far
+/// as `lower`.
+#[derive(Debug, Serialize)]
+pub(crate) struct BoundReport {
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
+    /// By the diagonal of the first mesh; null where it has none, and so the next.
+    pub(crate) lower_rel: f64,
+    pub(crate) upper_rel: f64,
+}
+
+impl From<Bound> for BoundReport {
+    fn from(bound: Bound) -> Self {
+        let (lower_rel, upper_rel) = (bound.lower_rel(), bound.upper_rel());
+        Self { lower: bound.lower, upper: bound.upper, lower_rel, upper_rel }
+    }
 }
 
 /// What `levels --report` writes.

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::files::{check_directory, check_output, read, write};
 use crate::out_of_core;
 use crate::progress::Progress;
-use crate::report::{self, SimplifyReport, grouped, significant};
+use crate::report::{self, BoundReport, SimplifyReport, grouped, significant};
 
 pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
     if let Some(memory) = arguments.memory {
@@ -30,12 +30,18 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
     let options = engine_arguments.options(target);
     let progress = Progress::new(arguments.quiet);
     let begin = Instant::now();
+    let certified = arguments.target.max_error(original.diagonal()).filter(|_| arguments.certify);
     let (result, peak_bytes) = peak_bytes(|| {
-        progress
-            .during("simplifying", |monitor| engine::simplify(&original, target, engine_arguments, monitor))
+        progress.during("simplifying", |monitor| match certified {
+            None => Ok((engine::simplify(&original, target, engine_arguments, monitor)?, None)),
+            Some(max_error) => {
+                let certified = engine::simplify_within(&original, max_error, engine_arguments, monitor)?;
+                Ok::<_, Failure>((certified.simplified, Some(certified.bound)))
+            }
+        })
     });
     let seconds = begin.elapsed().as_secs_f64();
-    let result = result?;
+    let (result, bound) = result?;
 
     if arguments.verify {
         engine::check(&original, &result, &options)?;
@@ -60,6 +66,7 @@ pub(crate) fn run(arguments: &SimplifyArguments) -> Result<(), Failure> {
         locked: result.locked,
         topology_changed: result.topology_changed,
         error: result.error,
+        bound: bound.map(BoundReport::from),
         attribute_error: result.attribute_error,
         passes: result.passes,
     };
@@ -76,8 +83,9 @@ fn summary(report: &SimplifyReport, result: &Simplified, diagonal: f64) -> Strin
     let SimplifyReport { triangles_in, triangles_out, seconds, error, .. } = *report;
     let topology = if result.topology_changed { "topology changed" } else { "topology kept" };
     let share = report::percent(f64::from(error) / diagonal);
+    let how = if report.bound.is_some() { "at most" } else { "about" };
     format!(
-        "{} -> {} triangles in {seconds:.3} s ({:.2} Mtri/s), error about {} ({share} of the diagonal), \
+        "{} -> {} triangles in {seconds:.3} s ({:.2} Mtri/s), error {how} {} ({share} of the diagonal), \
          stopped by {}, {topology}\n",
         grouped(triangles_in),
         grouped(triangles_out),

@@ -19,6 +19,7 @@
 
 mod bound;
 mod buffers;
+mod certified;
 mod deviation;
 mod engine;
 mod entry;
@@ -37,6 +38,7 @@ mod version;
 
 pub use bound::*;
 pub use buffers::*;
+pub use certified::*;
 pub use deviation::*;
 pub use engine::*;
 pub use hierarchy::*;

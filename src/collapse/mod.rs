@@ -127,6 +127,12 @@ impl Edge<'_> {
             let of_target = fold(self.target, self.source.vertex, position - into)?;
             distance_squared = distance_squared.max(of_target);
         }
+        if self.source.is_pointed() {
+            distance_squared = distance_squared.max(self.retreat_squared(from, position, target_stays));
+        }
+        if !target_stays && self.target.is_pointed() {
+            distance_squared = distance_squared.max(self.retreat_squared(into, position, target_stays));
+        }
         // What stays where it is adds nothing to the error that led there.
         let error = if rules.half_edge {
             self.target_point.w.max(self.source_point.w + distance_squared.sqrt())
@@ -138,6 +144,28 @@ impl Edge<'_> {
         }
         let along = (from_source.dot(edge) / edge.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         Some(Collapse { point: position.extend(error), along })
+    }
+
+    /// The squared distance of an end of the edge that was at `point` from the faces around its new `position`:
+    /// a tip that goes back along the planes around it is on none of the surfaces that are left.
+    #[cold]
+    #[inline(never)]
+    fn retreat_squared(&self, point: Vec3A, position: Vec3A, target_stays: bool) -> f32 {
+        let ends = [
+            (self.source, self.target.vertex, self.source_point),
+            (self.target, self.source.vertex, self.target_point),
+        ];
+        // Of a target that stays only the names of its faces are known.
+        let known = if target_stays { &ends[..1] } else { &ends[..] };
+        let mut nearest = (position - point).length_squared();
+        for &(ring, other, origin) in known {
+            let from_point = Vec3A::from_vec4(origin) - point;
+            for [next, previous] in ring.surviving_edges(other) {
+                let triangle = [position - point, from_point + next, from_point + previous];
+                nearest = nearest.min(distance_to_triangle_squared(triangle));
+            }
+        }
+        nearest
     }
 
     /// Whether a face would come to look away from the mean of those around the new vertex, as none did
@@ -247,6 +275,25 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
         distance_squared = distance_squared.max(ring.border_distance_squared(offset));
     }
     (!folded).then_some(distance_squared)
+}
+
+/// The squared distance of a triangle from the origin; of its corners' nearest edge where it has no area.
+///
+/// The regions are those of Ericson, *Real-Time Collision Detection* (2005), section 5.1.5.
+fn distance_to_triangle_squared([a, b, c]: [Vec3A; 3]) -> f32 {
+    let to_edge = |from: Vec3A, to: Vec3A| {
+        let along = to - from;
+        let at = (-from.dot(along) / along.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (from + at * along).length_squared()
+    };
+    let normal = (b - a).cross(c - a);
+    let area_squared = normal.length_squared();
+    let is_inside = |from: Vec3A, to: Vec3A| from.cross(to).dot(normal) > 0.0;
+    if area_squared > f32::MIN_POSITIVE && is_inside(a, b) && is_inside(b, c) && is_inside(c, a) {
+        let height = a.dot(normal);
+        return height * height / area_squared;
+    }
+    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
 }
 
 /// Whether a face of which single precision does not know on which side it lies: twice its area, squared,

@@ -22,6 +22,9 @@ impl Spoke {
     }
 }
 
+/// A vertex is pointed if the cosine, squared, of the angle between a face's normal and the mean of all is less.
+const POINTED: f32 = 0.25;
+
 /// Names are compared this many at a time.
 const LANES: usize = 8;
 
@@ -172,6 +175,28 @@ impl Ring {
         faces
             .filter(move |((next, previous), _)| *next != other && *previous != other)
             .map(move |(_, spoke)| (spoke.cross, spoke.moved(offset)))
+    }
+
+    /// Whether the vertex is a tip, of a border or of a surface some of whose faces hardly look where the vertex
+    /// does: when it goes back, the distance from its faces' planes says little.
+    #[inline(always)]
+    pub(crate) fn is_pointed(&self) -> bool {
+        let mean = self.mean_normal();
+        let least = POINTED * mean.length_squared();
+        let mut pointed = self.boundary;
+        for spoke in self.spokes() {
+            let cosine = spoke.cross.dot(mean);
+            pointed |= cosine.max(0.0).powi(2) < least * spoke.cross.length_squared();
+        }
+        pointed
+    }
+
+    /// The ways to the other two corners of each face that survives a collapse with `other`.
+    pub(crate) fn surviving_edges(&self, other: u32) -> impl Iterator<Item = [Vec3A; 2]> {
+        let faces = self.names().zip(self.spokes());
+        faces
+            .filter(move |((next, previous), _)| *next != other && *previous != other)
+            .map(|(_, spoke)| [spoke.to_next, spoke.to_previous])
     }
 
     /// The corner after the vertex in each face.

@@ -1,26 +1,16 @@
 //! A guaranteed bound on the Hausdorff distance between two surfaces, by branch and bound.
 //!
-//! The distance to a convex set is a convex function. So over a triangle the distance to *one* triangle of
-//! the other surface is nowhere larger than at a corner, and that is at least the distance to the other
-//! surface: the largest of the corners' distances to any one triangle bounds a piece from above. From below
-//! the whole is bounded by every distance seen. Pieces whose bound is too far above that are cut, the worst
-//! first: where the prisms over the other surface's triangles end, so that a flat part that is only meshed
-//! anew is done once it is cut along the new edges (the idea of Tang, Lee and Kim, "Interactive Hausdorff
-//! Distance Computation for General Polygonal Models", 2009), and in the middle of the longest edge.
+//! From above each piece is bounded by its corners' distances to one triangle (`pieces.rs`), from below the
+//! whole by every distance seen. Pieces whose bound is too far above that are cut, the worst first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::ops::Range;
 
-use glam::DVec3;
-
+use super::pieces::{Corner, Direction, Found, Part, ROUNDING, blocks};
 use super::surface::Surface;
-use super::{DeviationError, relative, triangle};
+use super::{DeviationError, relative};
 use crate::workers::Workers;
 use crate::{Cancelled, Mesh, Monitor};
-
-/// Vertices or triangles that one worker takes in one go.
-const BLOCK: usize = 1024;
 
 /// Pieces that are cut before the bounds are looked at again. Fixed, as the order of the cuts follows it.
 const BATCH: usize = 2048;
@@ -30,16 +20,6 @@ const SHARE: usize = 64;
 
 /// Bounds closer than this share of the larger diagonal need not come closer: a few steps of `f32`.
 const NEGLIGIBLE: f64 = 1e-6;
-
-/// What `f64` may have rounded away, as a share of the largest coordinate: a cut moves a corner by 2⁻⁵²,
-/// and a piece is cut some dozens of times.
-const ROUNDING: f64 = 1.0 / (1u64 << 42) as f64;
-
-/// Cuts along prisms in a row. A piece then is halved, so that all pieces become small in the end.
-const MOST_PRISM_CUTS: u8 = 3;
-
-/// A corner closer to a plane than this share of the piece's size lies on it.
-const ON_PLANE: f64 = 1e-9;
 
 /// How close the bounds shall come to each other, and how much work that may be.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +56,12 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// The least `f32` that no point is farther away than, or the largest there is.
+    pub(crate) fn not_above(&self) -> f32 {
+        let near = self.upper as f32;
+        if f64::from(near) < self.upper { near.next_up() } else { near }.min(f32::MAX)
+    }
+
     /// [`lower`](Self::lower) as a fraction of the diagonal.
     pub fn lower_rel(&self) -> f64 {
         relative(self.lower, self.diagonal)
@@ -153,29 +139,6 @@ pub fn bound(
     })
 }
 
-/// From the points of one surface to the nearest of the other.
-#[derive(Clone, Copy)]
-struct Direction<'a> {
-    from: &'a Surface<'a>,
-    to: &'a Surface<'a>,
-}
-
-/// A point, and the triangle of the other surface that is nearest to it.
-#[derive(Debug, Clone, Copy)]
-struct Corner {
-    point: DVec3,
-    nearest: u32,
-}
-
-/// A part of a triangle.
-#[derive(Debug, Clone, Copy)]
-struct Part {
-    corners: [Corner; 3],
-    /// No point of it is farther from the other surface, squared.
-    upper: f64,
-    prism_cuts: u8,
-}
-
 /// A part that may be farther from the other surface than is known so far.
 struct Piece {
     part: Part,
@@ -206,19 +169,6 @@ impl PartialEq for Piece {
 }
 
 impl Eq for Piece {}
-
-/// What looking at parts of a surface came to; distances are squared.
-#[derive(Default)]
-struct Found {
-    /// The largest distance of a point.
-    lower: f64,
-    /// The largest bound of the parts that are done.
-    settled: f64,
-    /// The others, and the triangles nearest to their centroids.
-    open: Vec<(Part, u32)>,
-    /// How many parts were looked at.
-    parts: usize,
-}
 
 struct Search<'a> {
     directions: [Direction<'a>; 2],
@@ -296,7 +246,7 @@ impl Search<'_> {
                 let found = self.workers.map(pieces.chunks(SHARE).collect(), |share| {
                     let mut found = Found::default();
                     for piece in share {
-                        direction.cut(piece, enough, &mut found);
+                        direction.cut((piece.part, piece.middle), enough, &mut found);
                     }
                     found
                 });
@@ -319,164 +269,4 @@ impl Search<'_> {
             }
         }
     }
-}
-
-impl Direction<'_> {
-    /// For each vertex that a triangle uses the nearest triangle, and the largest distance, squared.
-    fn nearest_of_vertices(&self, workers: &Workers) -> (Vec<u32>, f64) {
-        let mut used = vec![false; self.from.vertex_count()];
-        for &vertex in self.from.triangles().as_flattened() {
-            used[vertex as usize] = true;
-        }
-        let of_blocks = workers.map(blocks(used.len()), |block| {
-            let (mut guess, mut farthest) = (0, 0f64);
-            let nearest: Vec<u32> = block
-                .map(|vertex| {
-                    if used[vertex] {
-                        let nearest = self.to.nearest(self.from.position(vertex as u32), guess, 0.0);
-                        farthest = farthest.max(nearest.squared);
-                        guess = nearest.triangle;
-                    }
-                    guess
-                })
-                .collect();
-            (nearest, farthest)
-        });
-        let farthest = of_blocks.iter().map(|(_, farthest)| *farthest).fold(0.0, f64::max);
-        (of_blocks.into_iter().flat_map(|(nearest, _)| nearest).collect(), farthest)
-    }
-
-    /// Bounds `part`, by what its corners are nearest to and, if that is not `enough`, its centroid.
-    fn look_at(&self, mut part: Part, enough: f64, found: &mut Found) {
-        found.parts += 1;
-        let corners = part.corners.map(|corner| corner.point);
-        let [a, b, c] = part.corners.map(|corner| corner.nearest);
-        part.upper = part.upper.min(self.farthest_squared(corners, a));
-        for other in [b, c] {
-            if part.upper > enough && other != a {
-                part.upper = part.upper.min(self.farthest_squared(corners, other));
-            }
-        }
-        if part.upper > enough {
-            let nearest = self.to.nearest((corners[0] + corners[1] + corners[2]) / 3.0, a, 0.0);
-            found.lower = found.lower.max(nearest.squared);
-            part.upper = part.upper.min(self.farthest_squared(corners, nearest.triangle));
-            if part.upper > enough {
-                found.open.push((part, nearest.triangle));
-                return;
-            }
-        }
-        found.settled = found.settled.max(part.upper);
-    }
-
-    /// No point of the part with these corners is farther from `triangle` than this, squared.
-    ///
-    /// Measured to points *of* the triangle, of which whatever mixes the corners has one at hand that is
-    /// mixed alike: a needle whose nearest point is not quite found still gives a bound.
-    fn farthest_squared(&self, corners: [DVec3; 3], triangle: u32) -> f64 {
-        let triangle = self.to.corners(triangle);
-        let squared = |corner: DVec3| corner.distance_squared(triangle::nearest_point(corner, triangle));
-        corners.map(squared).into_iter().fold(0.0, f64::max)
-    }
-
-    /// Cuts `piece`, and looks at what it falls into.
-    fn cut(&self, piece: &Piece, enough: f64, found: &mut Found) {
-        let Piece { part, middle, .. } = *piece;
-        let points = part.corners.map(|corner| corner.point);
-        let along_prism = || Cut::along_prism(points, self.to.corners(middle));
-        let (cut, prism_cuts) = match along_prism().filter(|_| part.prism_cuts < MOST_PRISM_CUTS) {
-            Some(cut) => (cut, part.prism_cuts + 1),
-            None => (Cut::in_half(points), 0),
-        };
-        let mut on_edge = |from: Corner, to: Corner, at: f64| {
-            let point = from.point.lerp(to.point, at);
-            let nearest = self.to.nearest(point, middle, 0.0);
-            found.lower = found.lower.max(nearest.squared);
-            Corner { point, nearest: nearest.triangle }
-        };
-        let corners_from = |first: usize| [0, 1, 2].map(|step| part.corners[(first + step) % 3]);
-        let look_at = |corners, found: &mut Found| {
-            self.look_at(Part { corners, prism_cuts, ..part }, enough, found);
-        };
-        match cut {
-            Cut::Through { apex, at } => {
-                let [a, b, c] = corners_from(apex);
-                let middle = on_edge(b, c, at);
-                look_at([a, b, middle], found);
-                look_at([a, middle, c], found);
-            }
-            Cut::Off { corner, at } => {
-                let [a, b, c] = corners_from(corner);
-                let [beside_b, beside_c] = [on_edge(a, b, at[0]), on_edge(a, c, at[1])];
-                look_at([a, beside_b, beside_c], found);
-                look_at([beside_b, b, c], found);
-                look_at([beside_b, c, beside_c], found);
-            }
-        }
-    }
-}
-
-/// How a triangle is cut in two or three.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Cut {
-    /// From a corner to the opposite edge, at this share of it.
-    Through { apex: usize, at: f64 },
-    /// Across the edges from a corner to the next one and to the one after, at these shares of them.
-    Off { corner: usize, at: [f64; 2] },
-}
-
-impl Cut {
-    /// In the middle of the longest edge.
-    fn in_half(corners: [DVec3; 3]) -> Self {
-        let opposite = |corner: usize| corners[(corner + 1) % 3].distance_squared(corners[(corner + 2) % 3]);
-        let mut apex = 0;
-        for corner in [1, 2] {
-            if opposite(corner) > opposite(apex) {
-                apex = corner;
-            }
-        }
-        Self::Through { apex, at: 0.5 }
-    }
-
-    /// Along the side of the prism over `triangle` that cuts deepest; `None` if none cuts.
-    fn along_prism(corners: [DVec3; 3], triangle: [DVec3; 3]) -> Option<Self> {
-        let normal = triangle::normal(triangle)?;
-        let size = corners[0].distance(corners[1]).max(corners[0].distance(corners[2]));
-        let mut deepest = ON_PLANE * size;
-        let mut heights = None;
-        for side in 0..3 {
-            let (start, end) = (triangle[side], triangle[(side + 1) % 3]);
-            let outwards = (end - start).cross(normal).normalize_or_zero();
-            let over = corners.map(|corner| (corner - start).dot(outwards));
-            let depth = over.into_iter().fold(0.0, f64::max).min(-over.into_iter().fold(0.0, f64::min));
-            if depth > deepest {
-                deepest = depth;
-                heights = Some(over);
-            }
-        }
-        Some(Self::at_zero(heights?, ON_PLANE * size))
-    }
-
-    /// Where what has these heights at the corners, some above `margin` and some below, is zero.
-    fn at_zero(heights: [f64; 3], margin: f64) -> Self {
-        let share = |from: usize, to: usize| heights[from] / (heights[from] - heights[to]);
-        let others = |corner: usize| [(corner + 1) % 3, (corner + 2) % 3];
-        match (0..3).find(|&corner| heights[corner].abs() <= margin) {
-            Some(apex) => {
-                let [from, to] = others(apex);
-                Self::Through { apex, at: share(from, to) }
-            }
-            None => {
-                let above = heights.map(|height| height > 0.0);
-                let alone =
-                    |corner: usize| others(corner).into_iter().all(|other| above[other] != above[corner]);
-                let corner = (0..3).find(|&corner| alone(corner)).unwrap_or_default();
-                Self::Off { corner, at: others(corner).map(|other| share(corner, other)) }
-            }
-        }
-    }
-}
-
-fn blocks(count: usize) -> Vec<Range<usize>> {
-    (0..count).step_by(BLOCK).map(|start| start..(start + BLOCK).min(count)).collect()
 }

@@ -7,11 +7,14 @@
 
 mod bound;
 mod directed;
+mod pieces;
 mod sampling;
 mod surface;
 mod triangle;
+mod within;
 
 pub use bound::{Bound, BoundOptions, bound};
+pub(crate) use within::{Apart, Reference};
 
 use directed::{Direction, Totals};
 use surface::Surface;

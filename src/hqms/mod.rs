@@ -17,6 +17,8 @@ mod replacement;
 mod run;
 #[cfg(feature = "bench-internals")]
 pub(crate) mod stages;
+#[cfg(feature = "deviation")]
+pub(crate) mod steps;
 
 pub use crate::collapse::HalfEdge;
 pub use crate::collapse::attributes::AttributeWeights;
@@ -36,6 +38,9 @@ pub enum Target {
     /// This fraction of the input's triangles, `0.0..=1.0`, rounded down.
     Ratio(f64),
     /// As few triangles as an estimated distance of this much, in units of the positions, allows.
+    ///
+    /// What is measured then is mostly 0.4 to 1.2 times as much (from 0.09 to 2.32 on 28 meshes from 0.02 to 2 % of the diagonal).
+    /// `simplify_within` (feature `deviation`) proves it, and leaves fewer triangles.
     MaxError(f32),
 }
 
@@ -167,7 +172,8 @@ pub struct Simplified {
     pub mesh: Mesh,
     /// Why it is as large as it is.
     pub stopped_by: StoppedBy,
-    /// Estimated largest distance from the input, in units of the positions.
+    /// Estimated largest distance from the input, in units of the positions: a sum over collapses, of which what is
+    /// measured is mostly 0.2 to 0.6 times as much (from 0.05 to 1.02 on 28 meshes, to 50, 10 and 1 % of the triangles).
     pub error: f32,
     /// Estimated largest difference of the attributes from the input's, weighted: in units of the positions,
     /// a difference of 1 being the weight times the longest side of the bounding box. 0 where no attribute

@@ -226,8 +226,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// What a run that gets stuck comes back to.
-    fn checkpoint(&mut self) -> (Snapshot, Counts) {
+    /// What a run comes back to that gets stuck, or goes too far.
+    pub(super) fn checkpoint(&mut self) -> (Snapshot, Counts) {
         self.surface.shrink();
         (self.surface.snapshot(), self.counts)
     }
@@ -324,6 +324,19 @@ impl<'a> Run<'a> {
         if matches!(goal, Goal::Vertices(_)) && !self.surface.wedges.is_empty() {
             self.counts.vertices = self.surface.vertex_count();
         }
+    }
+
+    /// Back to a checkpoint.
+    #[cfg(feature = "deviation")]
+    pub(super) fn go_back(&mut self, (snapshot, counts): (Snapshot, Counts)) {
+        self.surface.restore(snapshot);
+        self.counts = counts;
+    }
+
+    /// Sets how much of a maximum error is spent at each vertex of `mesh`, which is the surface as it is now.
+    #[cfg(feature = "deviation")]
+    pub(super) fn spend(&mut self, mesh: &Mesh, spent: &[f32]) {
+        self.surface.set_errors(mesh.triangles(), spent);
     }
 
     /// The surface as it is now.

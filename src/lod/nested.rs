@@ -1,15 +1,10 @@
 //! A few levels of detail, each an index buffer into a prefix of one vertex buffer.
 
 #[cfg(feature = "deviation")]
-use std::ops::ControlFlow;
-
-#[cfg(feature = "deviation")]
 use crate::deviation::{Bound, BoundOptions, DeviationError, bound};
 use crate::hqms::{Options, Placement, Simplified, SimplifyError, StoppedBy, Target, build_levels};
 use crate::mesh::topology::is_face;
 use crate::mesh::{Mesh, select};
-#[cfg(feature = "deviation")]
-use crate::monitor::Cancelled;
 use crate::monitor::Monitor;
 
 /// A chain of levels from fine to coarse. Level 0 is the input itself; each level names vertices of one
@@ -197,16 +192,12 @@ impl NestedLevels {
         let share = |level: usize| level as f32 / coarser as f32;
         let mut bounds = Vec::with_capacity(coarser);
         for level in 1..=coarser {
-            let (from, to) = (share(level - 1), share(level));
-            let mut part = Monitor::new(|done| match monitor.report(from + (to - from) * done) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(Cancelled) => ControlFlow::Break(()),
-            });
-            bounds.push(bound(&self.mesh, &self.level_mesh(level), options, &mut part)?);
+            let part = &mut monitor.part(share(level - 1)..share(level));
+            bounds.push(bound(&self.mesh, &self.level_mesh(level), options, part)?);
         }
         let mut largest = 0.0f32;
         for (level, found) in self.levels[1..].iter_mut().zip(&bounds) {
-            largest = largest.max(not_below(found.upper));
+            largest = largest.max(found.not_above());
             level.error = largest;
         }
         Ok(bounds)
@@ -260,13 +251,6 @@ impl<'a> Tracked<'a> {
         }
         Ok(Self { result, origins, sources })
     }
-}
-
-/// The least `f32` that is not below `value`, or the largest there is.
-#[cfg(feature = "deviation")]
-fn not_below(value: f64) -> f32 {
-    let near = value as f32;
-    if f64::from(near) < value { near.next_up() } else { near }.min(f32::MAX)
 }
 
 /// For each vertex of the input how many levels, from the finest on, it is needed for: up to the last one

@@ -27,7 +27,7 @@ fn reports(allowed: usize, run: impl FnOnce(&mut Monitor) -> Result<(), Simplify
 }
 
 /// Cancels at each report there is.
-fn cancel_everywhere(run: impl Fn(&mut Monitor) -> Result<(), SimplifyError>) -> Vec<f32> {
+pub(crate) fn cancel_everywhere(run: impl Fn(&mut Monitor) -> Result<(), SimplifyError>) -> Vec<f32> {
     let (fractions, done) = reports(usize::MAX, &run);
     assert!(done);
     assert!(fractions.iter().all(|fraction| (0.0..=1.0).contains(fraction)), "{fractions:?}");

@@ -9,9 +9,9 @@ use crate::check::check;
 use crate::meshes::{attributed, dirty_mesh, noise, torn_mesh};
 
 /// A mesh, and how to simplify it.
-struct Case {
-    mesh: Mesh,
-    options: Options,
+pub(crate) struct Case {
+    pub(crate) mesh: Mesh,
+    pub(crate) options: Options,
 }
 
 /// In few lines: attributes are made up and say nothing.
@@ -24,7 +24,7 @@ impl fmt::Debug for Case {
 }
 
 /// Options of every kind for a mesh, its attributes included.
-fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<Value = Case> {
+pub(crate) fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<Value = Case> {
     let mesh = (mesh, any::<bool>(), any::<u64>())
         .prop_map(|(mesh, attributes, seed)| if attributes { attributed(mesh, seed) } else { mesh });
     mesh.prop_flat_map(|mesh| {

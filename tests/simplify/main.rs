@@ -1,6 +1,8 @@
 //! The engine from outside: what it promises of every mesh, and what it must do with particular ones.
 
 mod cancel;
+#[cfg(feature = "deviation")]
+mod certified;
 mod check;
 mod determinism;
 mod hostile;

@@ -32,6 +32,7 @@ fn help_of_simplify_names_all_options() {
         "vertices",
         "ratio",
         "max-error",
+        "certify",
         "selection",
         "records",
         "lock-boundary",

@@ -34,6 +34,28 @@ fn an_error_bound_is_kept_and_used() {
 }
 
 #[test]
+fn a_certified_error_bound_is_proven() {
+    let bench = bench();
+    for engine in ["hqms", "indices"] {
+        let line = "simplify ball.ply out.ply --max-error 0.01 --certify --verify --report report.json";
+        let said = bench.run_well(&format!("{line} --engine {engine}"));
+        assert!(said.contains("error at most"), "{said}");
+        let report = bench.json("report.json");
+        assert!(number(&report["bound"], "upper") <= 0.01);
+        assert!(number(&report["bound"], "lower") <= number(&report["bound"], "upper"));
+        assert!(count(&report, "triangles_out") < count(&report, "triangles_in") / 2);
+        assert_eq!(report["stopped_by"], "error");
+        let compared = bench.run_well("compare ball.ply out.ply --samples 1000 --bound --json --quiet");
+        let compared: serde_json::Value = serde_json::from_str(&compared).unwrap();
+        assert!(number(&compared["bound"], "lower") <= 0.01, "{compared}");
+    }
+    bench.run_badly("simplify ball.ply out.ply --ratio 0.5 --certify", 2, "--certify");
+    bench.run_badly("simplify ball.ply out.ply --max-error -1 --certify", 5, "maximum error -1");
+    let line = "simplify ball.ply out.ply --max-error 1 --certify --engine multiple-choice";
+    bench.run_badly(line, 5, "--certify");
+}
+
+#[test]
 fn a_share_of_the_diagonal_is_the_same_as_that_distance() {
     let bench = bench();
     let bound = 0.005 * bench.read("ball.ply").diagonal();

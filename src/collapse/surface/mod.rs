@@ -356,6 +356,22 @@ impl Surface {
         self.cross_seams = true;
         self.flags.iter_mut().for_each(|flags| *flags &= !flag::BLOCKED);
     }
+
+    /// Sets the errors of the vertices to those of the corners of `triangles`, which are those of the living faces
+    /// in their order. What was not legal before may be so now.
+    #[cfg(feature = "deviation")]
+    pub(crate) fn set_errors(&mut self, triangles: &[[u32; 3]], errors: &[f32]) {
+        let Self { points, faces, flags, scale, .. } = self;
+        points.iter_mut().for_each(|point| point.w = 0.0);
+        for (face, triangle) in faces.iter().filter(|face| is_alive(face)).map(corners).zip(triangles) {
+            for (vertex, corner) in face.into_iter().zip(triangle) {
+                // Vertices of the mesh may be one on the surface.
+                let error = &mut points[vertex as usize].w;
+                *error = error.max(errors[*corner as usize] * *scale);
+            }
+        }
+        flags.iter_mut().for_each(|flags| *flags &= !flag::BLOCKED);
+    }
 }
 
 /// What decides where a vertex goes, of a surface of which other parts may be in use.
