@@ -4,6 +4,7 @@ use super::finish::Finish;
 use super::goal::Goal;
 use super::order::rank;
 use super::pass::{TILE, Threshold, ranked_pass};
+use super::refine::refine;
 use super::{
     AttributeWeights, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
     replacement,
@@ -46,6 +47,9 @@ const STALLED: f32 = 0.002;
 /// How far a vertex may be placed outside the bounds of the input, as a share of their diagonal.
 const OVERSHOOT: f32 = 0.25;
 
+/// The share of the time that a run takes before the refinement.
+const REFINE_BEGINS: f32 = 0.65;
+
 /// A simplification under way.
 pub(crate) struct Run<'a> {
     options: &'a Options,
@@ -76,7 +80,7 @@ impl<'a> Run<'a> {
             rank: rank.as_deref(),
             locked: &locked,
             track: Track {
-                origins: options.track_origins,
+                origins: options.track_origins || options.refine,
                 sources: options.track_sources || half_edge,
                 collapses: options.track_collapses || options.track_origins && half_edge,
             },
@@ -299,6 +303,20 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The share of the work that is done when the goal is reached.
+    pub(crate) fn reached(&self) -> f32 {
+        if self.options.refine { REFINE_BEGINS } else { 1.0 }
+    }
+
+    /// Fits what is left to the input, if that is asked for. What is reported lies in `share`.
+    pub(crate) fn refine(&mut self, share: Range<f32>, monitor: &mut Monitor) -> Result<(), Cancelled> {
+        if !self.options.refine {
+            return Ok(());
+        }
+        let report = |done| monitor.report(share.start + (share.end - share.start) * done);
+        refine(&mut self.surface, self.input, &self.workers, report)
+    }
+
     /// Frees memory that only a further [`reach`](Self::reach) would need.
     pub(crate) fn drop_rings(&mut self) {
         self.surface.drop_rings();
@@ -385,6 +403,9 @@ fn check(mesh: &Mesh, options: &Options) -> Result<(), SimplifyError> {
     if options.track_collapses && !moves_no_vertex(options) {
         let message = "collapses can be tracked where vertices stay (Placement::Existing) only";
         return invalid(message.into());
+    }
+    if options.refine && moves_no_vertex(options) {
+        return invalid("vertices cannot be refined where they stay (Placement::Existing)".into());
     }
     if options.selection == (Selection::ReplacementSelection { records: 0 }) {
         return invalid("a replacement-selection heap needs a record".into());

@@ -35,6 +35,7 @@ fn help_of_simplify_names_all_options() {
         "selection",
         "records",
         "lock-boundary",
+        "refine",
         "keep-topology",
         "allow-topology",
         "weld",

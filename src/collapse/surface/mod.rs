@@ -251,6 +251,37 @@ impl Surface {
         unreferenced.into_iter().sum()
     }
 
+    /// For each vertex of the input the vertex it is in since the last [`compact`](Self::compact), or [`NONE`],
+    /// if that is tracked.
+    pub(crate) fn origins(&self) -> Option<&[u32]> {
+        self.origins.as_deref()
+    }
+
+    /// The corners of the faces around a vertex, as `face << 2 | corner`, in the order of the faces. Needs the
+    /// rings.
+    #[inline(always)]
+    pub(crate) fn ring(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
+        let (start, end) = (self.offsets[vertex as usize], self.offsets[vertex as usize + 1]);
+        self.incidence.as_flattened()[start as usize..end as usize].iter().map(|corner| corner.load(Relaxed))
+    }
+
+    /// The vertices of a face.
+    #[inline(always)]
+    pub(crate) fn corners(&self, face: u32) -> [u32; 3] {
+        corners(&self.faces[face as usize])
+    }
+
+    /// Gives a face other vertices. The rings are lost.
+    pub(crate) fn set_corners(&mut self, face: u32, vertices: [u32; 3]) {
+        self.faces[face as usize] = vertices.map(AtomicU32::new);
+    }
+
+    /// The vertex at a corner.
+    #[inline(always)]
+    pub(crate) fn vertex(&self, corner: u32) -> u32 {
+        self.faces[(corner >> 2) as usize][(corner & 3) as usize].load(Relaxed)
+    }
+
     /// How many vertices the result has.
     pub(crate) fn vertex_count(&self) -> usize {
         if self.wedges.is_empty() {
