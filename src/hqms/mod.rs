@@ -224,7 +224,8 @@ pub enum SimplifyError {
 /// Simplifies `mesh`.
 ///
 /// Time is linear in the triangles; the peak of memory, copy of the input and result included, is
-/// about 36 bytes a triangle of a closed mesh plus what the result takes. `mesh` is untouched. The
+/// about 36 bytes a triangle of a closed mesh plus what the result takes; with [`Options::refine`] 4 more, and about
+/// 500 a triangle of the result. `mesh` is untouched. The
 /// result is the same, byte for byte, for any number of threads.
 ///
 /// A target that cannot be met is not an error: the result is then as small as the options allow,
@@ -242,7 +243,7 @@ pub fn simplify(mesh: &Mesh, options: &Options, monitor: &mut Monitor) -> Result
 ///
 /// [`Options::target`] is not looked at, and each level is the same share of what the monitor is told,
 /// though the first ones take longest. Levels that cannot be met are the same mesh as the one
-/// before, and say so.
+/// before, and say so. With [`Options::refine`] each goes on from the refined one before.
 pub fn build_levels(
     mesh: &Mesh,
     targets: &[Target],

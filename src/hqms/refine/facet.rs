@@ -91,7 +91,7 @@ impl Facet {
         let corners = [Vec3A::ZERO, self.sides[0], self.sides[1]];
         let height = self.normal.dot(offset);
         let mut best = Foot { weights: [1.0, 0.0, 0.0], height, distance_squared: f32::INFINITY };
-        for beyond in (0..3).filter(|&corner| !(weights[corner] >= 0.0)) {
+        for beyond in (0..3).filter(|&corner| weights[corner] < 0.0) {
             let (from, to) = ((beyond + 1) % 3, (beyond + 2) % 3);
             let side = corners[to] - corners[from];
             let start = offset - corners[from];

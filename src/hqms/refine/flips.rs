@@ -95,7 +95,7 @@ impl Scene<'_> {
         }
         let faces = [face, opposite >> 2];
         let error: f32 = faces.iter().map(|&face| self.sums[face as usize].error).sum();
-        if error <= self.least {
+        if error.is_nan() || error <= self.least {
             return None;
         }
         let (top, bottom) = (surface.vertex(corner), surface.vertex(opposite));
@@ -118,7 +118,8 @@ impl Scene<'_> {
                 let feet = new.map(|new| new.nearest(point, new.weights(point)));
                 let nearer = usize::from(feet[1].distance_squared < feet[0].distance_squared);
                 sums[nearer].add(&feet[nearer], sample.weight);
-                if sums[0].error + sums[1].error >= GAIN * error {
+                let pays = sums[0].error + sums[1].error < GAIN * error;
+                if !pays {
                     return None;
                 }
             }

@@ -42,8 +42,7 @@ use samples::{samples, sort};
 /// How often each vertex is moved.
 const SWEEPS: usize = 2;
 
-/// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`; the rings
-/// are lost. Vertices that are locked, on a border, or at an edge that is not between two faces stay where they
+/// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`. Vertices that are locked, on a border, or at an edge that is not between two faces stay where they
 /// are, and so does everything if the sum of the points' squared distances would not fall.
 pub(super) fn refine(
     surface: &mut Surface,
@@ -80,9 +79,12 @@ pub(super) fn refine(
     let across = opposites(surface, workers);
     let after = total(&Shape { surface, opposites: &across }.fit(&mut samples, workers));
     // Turned edges alone have made it no worse.
-    if after >= before {
+    let is_nearer = after < before;
+    if !is_nearer {
         surface.points = points;
     }
+    // What was not legal may be so now.
+    surface.flags.iter_mut().for_each(|flags| *flags &= !flag::BLOCKED);
     report(1.0)
 }
 

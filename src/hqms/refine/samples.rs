@@ -56,7 +56,7 @@ pub(super) fn samples(shape: Shape, input: &Mesh, workers: &Workers) -> Vec<Samp
             let [a, b, c] = triangle.map(|corner| Vec3::from(input.positions()[corner as usize]) * scale);
             let vector_area = stride as f32 / 2.0 * (b - a).cross(c - a);
             let area = vector_area.length();
-            if !(area > 0.0) {
+            if area.is_nan() || area <= 0.0 {
                 continue;
             }
             let mut add = |point: Vec3, share: f32, corner: u32| {
