@@ -154,7 +154,7 @@ TEST_CASE("simplify: refinement moves vertices, and wins or loses none") {
     CHECK(refined.mesh.vertex_count() == plain.mesh.vertex_count());
     CHECK(refined.mesh.triangle_count() == plain.mesh.triangle_count());
     options.placement = Placement::existing;
-    CHECK_THROWS_WITH_AS(decimesh::simplify(mesh, options), doctest::Contains("refine"), decimesh::Error);
+    CHECK_THROWS_AS(decimesh::simplify(mesh, options), decimesh::Error);
 }
 
 TEST_CASE("simplify: a locked border stays bit for bit") {

@@ -13,8 +13,9 @@ pub(super) struct Anchor {
     pub(super) normal: Vec3A,
 }
 
-/// For each vertex that is not `fixed` the plane of the input at the sample that is nearest to it, of those that belong
-/// to its faces. `samples` are in the order of their faces, those of each beginning at its of `starts`.
+/// For each vertex that is not `fixed` the plane of the input at the sample that is nearest to it, of those
+/// that belong to its faces. `samples` are in the order of their faces, those of each beginning at its of
+/// `starts`.
 pub(super) fn anchors(
     surface: &Surface,
     samples: &[Sample],

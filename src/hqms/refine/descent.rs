@@ -1,8 +1,9 @@
 //! Vertices go, one after another, to where the samples' heights are least.
 //!
-//! The sum of the squared heights after the vertices have moved by `x` is, to first order, that of `h - n·Σ b x` over the
-//! samples of each face: a quadratic form, whose least is sought by the Gauss-Seidel iteration, vertex by vertex.
-//! Each vertex solves three equations, made of the sums of its faces and of how far their other vertices have moved.
+//! The sum of the squared heights after the vertices have moved by `x` is, to first order, that of `h - n·Σ
+//! b x` over the samples of each face: a quadratic form, whose least is sought by the Gauss-Seidel
+//! iteration, vertex by vertex. Each vertex solves three equations, made of the sums of its faces and of
+//! how far their other vertices have moved.
 
 use super::anchors::Anchor;
 use super::fit::Sums;
@@ -13,23 +14,25 @@ use crate::quadric::Quadric;
 use crate::workers::Workers;
 use glam::{Vec3A, Vec4};
 
-/// Vertices in a block of parallel work: one that has a neighbour outside its block stays until the blocks lie
-/// elsewhere.
+/// Vertices in a block of parallel work: one that has a neighbour outside its block stays until the blocks
+/// lie elsewhere.
 const BLOCK: usize = 1 << 12;
 
-/// How much a vertex is drawn to where it is, as a share of the trace of its equations: no more than makes them
-/// solvable.
+/// How much a vertex is drawn to where it is, as a share of the trace of its equations: no more than makes
+/// them solvable.
 const REGULARISATION: f32 = 1e-3;
 
-/// How much area of samples a face should have, in units of its own: what is missing is filled with points of its
-/// plane. Few samples, spread unevenly, are else fitted better than the surface that they are of.
+/// How much area of samples a face should have, in units of its own: what is missing is filled with points
+/// of its plane. Few samples, spread unevenly, are else fitted better than the surface that they are of.
 const HOLD: f32 = 1.5;
 
-/// How much an anchor weighs, in units of the samples of a vertex. From 0 to 0.05 the largest error falls by a third,
-/// and where there are limbs the mean error by a tenth; from there to 0.5 the mean error rises by a tenth.
+/// How much an anchor weighs, in units of the samples of a vertex. From 0 to 0.05 the largest error falls
+/// by a third, and where there are limbs the mean error by a tenth; from there to 0.5 the mean error rises
+/// by a tenth.
 const ANCHOR: f32 = 0.05;
 
-/// How far a vertex may go: so many times the distance of the farthest sample of its faces, along their normals...
+/// How far a vertex may go: so many times the distance of the farthest sample of its faces, along their
+/// normals...
 const HEIGHT: f32 = 0.25;
 /// ...and this share of its shortest edge.
 const REACH: f32 = 0.5;
@@ -60,7 +63,8 @@ struct Plane {
 }
 
 impl<'a> Descent<'a> {
-    /// From where the vertices of `surface` are, with the `sums` of its faces; vertices that are `fixed` stay.
+    /// From where the vertices of `surface` are, with the `sums` of its faces; vertices that are `fixed`
+    /// stay.
     pub(super) fn new(
         surface: &'a Surface,
         sums: &[Sums],
@@ -81,8 +85,8 @@ impl<'a> Descent<'a> {
         Self { surface, planes, anchors, fixed }
     }
 
-    /// Moves each vertex in turn, its neighbours staying, if they are in its block. `points` are the surface's, as
-    /// they have been moved so far.
+    /// Moves each vertex in turn, its neighbours staying, if they are in its block. `points` are the
+    /// surface's, as they have been moved so far.
     pub(super) fn sweep(&self, points: &mut [Vec4], shifted: bool, workers: &Workers) {
         let (head, body) = points.split_at_mut(if shifted { (BLOCK / 2).min(points.len()) } else { 0 });
         let first = head.len();
@@ -150,8 +154,8 @@ impl<'a> Descent<'a> {
         None
     }
 
-    /// Whether no face around `vertex` turns away from what it was or becomes a line when the vertex goes from `own` to
-    /// `place`.
+    /// Whether no face around `vertex` turns away from what it was or becomes a line when the vertex goes
+    /// from `own` to `place`.
     fn keeps_sides(
         &self,
         vertex: u32,

@@ -55,9 +55,9 @@ impl Facet {
         [1.0 - second - third, second, third]
     }
 
-    /// Beyond which sides, each named by the corner opposite, another face may be nearer to `point`, of which these are
-    /// the `weights` here: those beyond which it lies, and those that are nearer than it is high, as two faces of a
-    /// valley are both below what is between them.
+    /// Beyond which sides, each named by the corner opposite, another face may be nearer to `point`, of
+    /// which these are the `weights` here: those beyond which it lies, and those that are nearer than it is
+    /// high, as two faces of a valley are both below what is between them.
     #[inline(always)]
     pub(super) fn doubtful(&self, point: Vec3A, weights: [f32; 3]) -> [bool; 3] {
         let height = self.normal.dot(point - self.corner);

@@ -13,12 +13,12 @@ const BLOCK: usize = 1 << 13;
 /// The most faces that the search for the nearest one goes over.
 const STEPS: usize = 16;
 
-/// A face is the nearest for all we know if its distance, squared, is less than this share of that of the vertex at
-/// which the search began.
+/// A face is the nearest for all we know if its distance, squared, is less than this share of that of the
+/// vertex at which the search began.
 const CLOSE: f32 = 0.01;
 
-/// What the samples of a face say of it, each having a weight `w`, a height `h` above the face's plane and a foot of
-/// which `b` are the weights of the corners.
+/// What the samples of a face say of it, each having a weight `w`, a height `h` above the face's plane and
+/// a foot of which `b` are the weights of the corners.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sums {
     /// The sums of `w b b`: of each corner with itself, and of the two at the side opposite to each.
@@ -87,8 +87,8 @@ impl Shape<'_> {
         Facet::new(places(self.surface, face))
     }
 
-    /// Brings each of the `samples` to the nearest face, from the one where it was; for each face what its samples
-    /// say.
+    /// Brings each of the `samples` to the nearest face, from the one where it was; for each face what its
+    /// samples say.
     pub(super) fn fit(&self, samples: &mut [Sample], workers: &Workers) -> Vec<Sums> {
         let of_block = |block: &mut [Sample]| {
             let mut runs: Vec<(u32, Sums)> = Vec::with_capacity(block.len() / 2);
@@ -118,8 +118,8 @@ impl Shape<'_> {
         sums
     }
 
-    /// The face nearest to `point` that is found from those around `vertex`, or from the `last` one if that is one of
-    /// these. `None` if none has an area.
+    /// The face nearest to `point` that is found from those around `vertex`, or from the `last` one if that
+    /// is one of these. `None` if none has an area.
     pub(super) fn find(&self, point: Vec3A, vertex: u32, last: Option<Nearest>) -> Option<Nearest> {
         let faces = || self.surface.ring(vertex).map(|corner| corner >> 2);
         let from = |face: u32| Some((face, self.facet(face)?));
@@ -144,8 +144,8 @@ impl Shape<'_> {
         Some(best)
     }
 
-    /// From a face across the side beyond which the foot of `point` lies farthest out, until it lies inside, or
-    /// beyond a side from both of its faces.
+    /// From a face across the side beyond which the foot of `point` lies farthest out, until it lies
+    /// inside, or beyond a side from both of its faces.
     #[inline(always)]
     fn walk(&self, point: Vec3A, face: u32, facet: Facet) -> (u32, Facet) {
         let mut current = (face, facet);

@@ -1,7 +1,7 @@
 //! Edges that are turned, where that brings two faces nearer to their samples.
 //!
-//! After Hoppe, DeRose, Duchamp, McDonald and Stuetzle, *Mesh optimization* (1993), section 4.2.1: an edge swap is
-//! judged by the distances of the samples of its two faces alone. Here the vertices stay meanwhile.
+//! After Hoppe, DeRose, Duchamp, McDonald and Stuetzle, *Mesh optimization* (1993), section 4.2.1: an edge
+//! swap is judged by the distances of the samples of its two faces alone. Here the vertices stay meanwhile.
 
 use super::facet::Facet;
 use super::fit::{Shape, Sums};
@@ -33,8 +33,9 @@ pub(super) struct Flip {
     pub(super) sums: [Sums; 2],
 }
 
-/// Edges to turn, no two of them at one face. `samples` are in the order of their faces, those of each beginning at
-/// its of `starts`; `sums` are what they say. An edge between two vertices that are `fixed` may be a feature, and stays.
+/// Edges to turn, no two of them at one face. `samples` are in the order of their faces, those of each
+/// beginning at its of `starts`; `sums` are what they say. An edge between two vertices that are `fixed`
+/// may be a feature, and stays.
 pub(super) fn flips(
     shape: Shape,
     samples: &[Sample],

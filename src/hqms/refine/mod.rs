@@ -1,21 +1,23 @@
-//! Better places for what a simplification leaves: edges are turned and vertices moved to fit points of the input.
+//! Better places for what a simplification leaves: edges are turned and vertices moved to fit points of the
+//! input.
 //!
-//! A collapse puts a vertex where it fits the faces around it best as they were then. Here all of the surface that is
-//! left is fitted to the input itself, after Hoppe, DeRose, Duchamp, McDonald and Stuetzle, *Mesh optimization*
-//! (SIGGRAPH 1993), sections 4.1 and 4.2: points of the input are projected to the surface, and then, the feet staying
-//! what they are in barycentric coordinates, the vertices moved by least squares.
+//! A collapse puts a vertex where it fits the faces around it best as they were then. Here all of the
+//! surface that is left is fitted to the input itself, after Hoppe, DeRose, Duchamp, McDonald and Stuetzle,
+//! *Mesh optimization* (SIGGRAPH 1993), sections 4.1 and 4.2: points of the input are projected to the
+//! surface, and then, the feet staying what they are in barycentric coordinates, the vertices moved by
+//! least squares.
 //!
 //! Departures:
-//! - It is done once, from a simplification that is good already, and not until it converges; the number of vertices
-//!   is given, so no energy counts them, and no springs are needed.
-//! - Feet are not searched for all over the surface: [`Surface::origins`] knows into which vertex each of the input's
-//!   went, and from there it is a few steps ([`fit`]).
-//! - What is least is the distance along the normals of the faces, not to the feet: a vertex may slide along what is
-//!   flat. All that the vertices around a face need to know of its samples is then in a few sums ([`fit::Sums`]), and
-//!   the iteration over the vertices looks at no sample ([`descent`]).
-//! - Samples are few, 5 or so a face. Where they are fewer than a face's area asks for, its plane holds it; and a
-//!   vertex is held near the input itself ([`anchors`]), as the least squares would else draw the ends of limbs out
-//!   into spikes, which no point of the input is far from.
+//! - It is done once, from a simplification that is good already, and not until it converges; the number of
+//!   vertices is given, so no energy counts them, and no springs are needed.
+//! - Feet are not searched for all over the surface: [`Surface::origins`] knows into which vertex each of
+//!   the input's went, and from there it is a few steps ([`fit`]).
+//! - What is least is the distance along the normals of the faces, not to the feet: a vertex may slide
+//!   along what is flat. All that the vertices around a face need to know of its samples is then in a few
+//!   sums ([`fit::Sums`]), and the iteration over the vertices looks at no sample ([`descent`]).
+//! - Samples are few, 5 or so a face. Where they are fewer than a face's area asks for, its plane holds it;
+//!   and a vertex is held near the input itself ([`anchors`]), as the least squares would else draw the
+//!   ends of limbs out into spikes, which no point of the input is far from.
 //!
 //! Linear time: about half as much as the simplification, at a tenth of the triangles.
 
@@ -42,8 +44,9 @@ use samples::{samples, sort};
 /// How often each vertex is moved.
 const SWEEPS: usize = 2;
 
-/// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`. Vertices that are locked, on a border, or at an edge that is not between two faces stay where they
-/// are, and so does everything if the sum of the points' squared distances would not fall.
+/// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`.
+/// Vertices that are locked, on a border, or at an edge that is not between two faces stay where they are,
+/// and so does everything if the sum of the points' squared distances would not fall.
 pub(super) fn refine(
     surface: &mut Surface,
     input: &Mesh,

@@ -6,7 +6,8 @@ use crate::mesh::Mesh;
 use crate::workers::Workers;
 use glam::{Vec3, Vec3A};
 
-/// How many samples there should be for each face of the surface: with 4 the error falls by 8 %, with 8 by 10 %.
+/// How many samples there should be for each face of the surface: with 4 the error falls by 8 %, with 8 by
+/// 10 %.
 const SAMPLES: usize = 5;
 
 /// Where a triangle or less is there for so many faces, each has three samples.
@@ -39,9 +40,9 @@ impl Sample {
     }
 }
 
-/// Samples of `input`, each at the nearest face of the `shape` that was found near the vertex that a corner of its
-/// triangle went into. A triangle has one in its middle; or three, which integrate a square over it exactly, where
-/// there are few; where there are very many, one of several has.
+/// Samples of `input`, each at the nearest face of the `shape` that was found near the vertex that a corner
+/// of its triangle went into. A triangle has one in its middle; or three, which integrate a square over it
+/// exactly, where there are few; where there are very many, one of several has.
 pub(super) fn samples(shape: Shape, input: &Mesh, workers: &Workers) -> Vec<Sample> {
     let Some(origins) = shape.surface.origins() else { return Vec::new() };
     let (triangles, faces) = (input.triangles(), shape.surface.faces.len());
@@ -82,8 +83,8 @@ pub(super) fn samples(shape: Shape, input: &Mesh, workers: &Workers) -> Vec<Samp
     workers.map(triangles.chunks(length).collect(), of_block).concat()
 }
 
-/// Puts samples in the order of their faces, of which there are so many; those of one face stay in their order.
-/// Where those of each face begin, and the last ones end.
+/// Puts samples in the order of their faces, of which there are so many; those of one face stay in their
+/// order. Where those of each face begin, and the last ones end.
 pub(super) fn sort(samples: &mut Vec<Sample>, faces: usize) -> Vec<u32> {
     let mut starts = vec![0u32; faces + 1];
     samples.iter().for_each(|sample| starts[sample.face as usize] += 1);

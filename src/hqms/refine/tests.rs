@@ -58,7 +58,9 @@ proptest! {
 
     /// A wall that leans over a floor, as far as is thought of.
     #[test]
-    fn what_is_not_doubtful_is_nearest_in_a_valley(height in 0.01f32..1.0, along in 0.0f32..0.7, slope in 0.0f32..2.2) {
+    fn what_is_not_doubtful_is_nearest_in_a_valley(
+        height in 0.01f32..1.0, along in 0.0f32..0.7, slope in 0.0f32..2.2,
+    ) {
         let floor = Facet::new([Vec3A::ZERO, Vec3A::X, Vec3A::Y]).unwrap();
         let (sine, cosine) = slope.sin_cos();
         let wall = Facet::new([Vec3A::ZERO, Vec3A::X, Vec3A::new(0.0, -cosine, sine)]).unwrap();
