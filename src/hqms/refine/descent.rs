@@ -7,7 +7,7 @@
 
 use super::anchors::Anchor;
 use super::fit::Sums;
-use super::places;
+use super::{is_rounding, places};
 use crate::collapse::is_line;
 use crate::collapse::surface::{Surface, neighbours};
 use crate::quadric::Quadric;
@@ -36,9 +36,6 @@ const ANCHOR: f32 = 0.05;
 const HEIGHT: f32 = 0.25;
 /// ...and this share of its shortest edge.
 const REACH: f32 = 0.5;
-
-/// Distances below this share of the coordinates and of the edges are rounding: nothing moves for them.
-const ROUNDING: f32 = 1e-6;
 
 /// The cosine, squared, of the largest angle that a face may turn by (60 degrees).
 const TURN: f32 = 0.25;
@@ -132,7 +129,7 @@ impl<'a> Descent<'a> {
             farthest = farthest.max(sums.farthest);
             shortest = shortest.min(start(next).distance_squared(start(vertex)));
         }
-        if farthest.sqrt() <= ROUNDING * (own.abs().max_element() + shortest.sqrt()) {
+        if is_rounding(farthest, own, shortest.sqrt()) {
             return None;
         }
         let anchor = &self.anchors[vertex as usize];

@@ -5,6 +5,7 @@
 
 use super::facet::Facet;
 use super::fit::{Shape, Sums};
+use super::is_rounding;
 use super::samples::Sample;
 use crate::collapse::is_line;
 use crate::collapse::surface::{NONE, next_corner, previous_corner};
@@ -102,6 +103,11 @@ impl Scene<'_> {
         let (top, bottom) = (surface.vertex(corner), surface.vertex(opposite));
         let (from, to) = (surface.vertex(next_corner(corner)), surface.vertex(previous_corner(corner)));
         if top == bottom || self.fixed[from as usize] && self.fixed[to as usize] {
+            return None;
+        }
+        let [start, end] = [from, to].map(|vertex| Vec3A::from_vec4(surface.points[vertex as usize]));
+        let farthest = faces.map(|face| self.sums[face as usize].farthest);
+        if is_rounding(farthest[0].max(farthest[1]), start, start.distance(end)) {
             return None;
         }
         let triangles = [[top, from, bottom], [bottom, to, top]];

@@ -44,6 +44,9 @@ use samples::{samples, sort};
 /// How often each vertex is moved.
 const SWEEPS: usize = 2;
 
+/// Distances below this share of the coordinates and of the edges are rounding: nothing is done for them.
+const ROUNDING: f32 = 1e-6;
+
 /// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`.
 /// Vertices that are locked, on a border, or at an edge that is not between two faces stay where they are,
 /// and so does everything if the sum of the points' squared distances would not fall.
@@ -108,6 +111,12 @@ fn fixed(surface: &Surface, opposites: &[[u32; 3]]) -> Vec<bool> {
         }
     }
     fixed
+}
+
+/// Whether a squared distance says nothing, beside a vertex at `place` and an edge of this `length`.
+#[inline(always)]
+fn is_rounding(distance_squared: f32, place: Vec3A, length: f32) -> bool {
+    distance_squared.sqrt() <= ROUNDING * (place.abs().max_element() + length)
 }
 
 /// The places of a face's corners.
