@@ -314,7 +314,7 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let report = |done| monitor.report(share.start + (share.end - share.start) * done);
-        refine(&mut self.surface, self.input, &self.workers, report)
+        refine(&mut self.surface, self.input, self.extent, &self.workers, report)
     }
 
     /// Frees memory that only a further [`reach`](Self::reach) would need.

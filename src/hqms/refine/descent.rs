@@ -50,6 +50,7 @@ pub(super) struct Descent<'a> {
     planes: Vec<Plane>,
     anchors: &'a [Anchor],
     fixed: &'a [bool],
+    extent: [Vec3A; 2],
 }
 
 /// The plane of a face and what its samples say of it.
@@ -67,6 +68,7 @@ impl<'a> Descent<'a> {
         sums: &[Sums],
         anchors: &'a [Anchor],
         fixed: &'a [bool],
+        extent: [Vec3A; 2],
         workers: &Workers,
     ) -> Self {
         let planes = workers.list(sums.len(), |face| {
@@ -79,7 +81,7 @@ impl<'a> Descent<'a> {
             sums.products.iter_mut().for_each(|product| *product += missing / 12.0);
             Plane { normal: cross.normalize_or_zero(), sums }
         });
-        Self { surface, planes, anchors, fixed }
+        Self { surface, planes, anchors, fixed, extent }
     }
 
     /// Moves each vertex in turn, its neighbours staying, if they are in its block. `points` are the
@@ -142,8 +144,9 @@ impl<'a> Descent<'a> {
         let (lowest, nearest) = (HEIGHT * farthest.sqrt(), REACH * shortest.sqrt());
         let mut step = step * (lowest / height).min(nearest / step.length()).min(1.0);
         for _ in 0..TRIES {
-            let place = own + step;
-            if place.is_finite() && place != own && self.keeps_sides(vertex, place, own, here) {
+            let moved = own + step;
+            let place = moved.max(self.extent[0]).min(self.extent[1]);
+            if moved.is_finite() && place != own && self.keeps_sides(vertex, place, own, here) {
                 return Some(place);
             }
             step *= 0.5;

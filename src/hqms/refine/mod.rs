@@ -48,11 +48,13 @@ const SWEEPS: usize = 2;
 const ROUNDING: f32 = 1e-6;
 
 /// Fits a compact `surface`, which was made of `input` and has its rings and origins, to points of `input`.
-/// Vertices that are locked, on a border, or at an edge that is not between two faces stay where they are,
-/// and so does everything if the sum of the points' squared distances would not fall.
+/// Vertices that are locked, on a border, or at an edge that is not between two faces stay where they are, and
+/// so do all if the sum of the points' squared distances would not fall. No vertex leaves the box between the
+/// two corners of the `extent`.
 pub(super) fn refine(
     surface: &mut Surface,
     input: &Mesh,
+    extent: [Vec3A; 2],
     workers: &Workers,
     mut report: impl FnMut(f32) -> Result<(), Cancelled>,
 ) -> Result<(), Cancelled> {
@@ -76,7 +78,7 @@ pub(super) fn refine(
     }
     let anchors = anchors(surface, &samples, &starts, &fixed, workers);
     let mut points = surface.points.clone();
-    let descent = Descent::new(surface, &sums, &anchors, &fixed, workers);
+    let descent = Descent::new(surface, &sums, &anchors, &fixed, extent, workers);
     for sweep in 0..SWEEPS {
         descent.sweep(&mut points, sweep % 2 == 1, workers);
     }
