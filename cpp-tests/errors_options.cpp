@@ -56,6 +56,12 @@ const std::vector<Defect> defects = {
      [](auto &options) { options.lock_boundary = 2; }},
     {"another", DECIMESH_ERROR_OPTION, {"keep_seams is -1"}, [](auto &options) { options.keep_seams = -1; }},
     {"a third", DECIMESH_ERROR_OPTION, {"cross_seams is 7"}, [](auto &options) { options.cross_seams = 7; }},
+    {"a fourth", DECIMESH_ERROR_OPTION, {"refine is 2"}, [](auto &options) { options.refine = 2; }},
+    {"refined vertices that stay", DECIMESH_ERROR_OPTION, {"refine"},
+     [](auto &options) {
+         options.refine = 1;
+         options.placement = DECIMESH_PLACEMENT_EXISTING;
+     }},
     {"a negative weight", DECIMESH_ERROR_OPTION, {"normals", "-1"},
      [](auto &options) { options.normal_weight = -1; }},
     {"an infinite weight", DECIMESH_ERROR_OPTION, {"uvs", "inf"},

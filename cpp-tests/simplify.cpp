@@ -143,6 +143,20 @@ TEST_CASE("simplify: locked vertices stay bit for bit") {
     }
 }
 
+TEST_CASE("simplify: refinement moves vertices, and wins or loses none") {
+    const Mesh mesh = shapes::stone(24, 16).mesh();
+    Options options;
+    options.target = Target::triangles(120);
+    const Simplified plain = decimesh::simplify(mesh, options);
+    options.refine = true;
+    const Simplified refined = decimesh::simplify(mesh, options);
+    checks::check_result(refined.mesh, refined.report);
+    CHECK(refined.mesh.vertex_count() == plain.mesh.vertex_count());
+    CHECK(refined.mesh.triangle_count() == plain.mesh.triangle_count());
+    options.placement = Placement::existing;
+    CHECK_THROWS_AS(decimesh::simplify(mesh, options), decimesh::Error);
+}
+
 TEST_CASE("simplify: a locked border stays bit for bit") {
     const shapes::Shape shape = shapes::plane(10);
     Options options;

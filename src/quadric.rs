@@ -166,7 +166,7 @@ impl Quadric {
     /// Solves `(A + shift I) x = right` by LDLᵀ without pivoting, which is stable as the matrix is
     /// positive definite. Not finite where it is not.
     #[inline(always)]
-    fn solve(&self, shift: f32, right: Vec3A) -> Vec3A {
+    pub(crate) fn solve(&self, shift: f32, right: Vec3A) -> Vec3A {
         let inverse_0 = 1.0 / (self.xx + shift);
         let l10 = self.xy * inverse_0;
         let l20 = self.xz * inverse_0;

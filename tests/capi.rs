@@ -255,6 +255,37 @@ fn a_certified_error_is_that_of_rust() {
 }
 
 #[test]
+fn refined_meshes_are_those_of_rust() {
+    let mesh = shapes::bumpy_sphere(24, 2);
+    let plain = Options::new(Target::Ratio(0.2));
+    let refined = Options { refine: true, ..plain.clone() };
+    let [plain, refined] = [plain, refined]
+        .map(|options| simplify(&mesh, &options, &mut Monitor::silent()).expect("the options are good").mesh);
+    assert_ne!(plain.positions(), refined.positions());
+    let mut options = decimesh_simplify_options { target_value: 0.2, refine: 1, ..c_calls::options() };
+    // SAFETY: the pointers point to what the calls' comments say.
+    unsafe {
+        let (mut input, mut output) = (ptr::null_mut(), ptr::null_mut());
+        succeeded(decimesh_mesh_from_buffers(&c_calls::buffers(&mesh), &mut input));
+        succeeded(decimesh_simplify(input, &options, &mut output, ptr::null_mut()));
+        let count = 3 * decimesh_mesh_vertex_count(output);
+        let positions = std::slice::from_raw_parts(decimesh_mesh_positions(output), count);
+        assert_eq!(positions, refined.positions().as_flattened());
+        decimesh_mesh_destroy(output);
+        let mut refused = |change: &dyn Fn(&mut decimesh_simplify_options), status| {
+            let kept = options;
+            change(&mut options);
+            assert_eq!(decimesh_simplify(input, &options, &mut output, ptr::null_mut()), status);
+            options = kept;
+        };
+        refused(&|options| options.refine = 2, DECIMESH_ERROR_OPTION);
+        refused(&|options| options.placement = DECIMESH_PLACEMENT_EXISTING, DECIMESH_ERROR_OPTION);
+        refused(&|options| options.reserved_refine = 1, DECIMESH_ERROR_UNKNOWN_OPTION);
+        decimesh_mesh_destroy(input);
+    }
+}
+
+#[test]
 fn hierarchies_give_the_meshes_that_they_give_to_rust() {
     let (columns, rows) = (70, 45);
     let heights: Vec<f32> = (0..columns * rows).map(|sample| ((sample * sample) % 251) as f32).collect();

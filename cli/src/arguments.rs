@@ -210,6 +210,10 @@ pub(crate) struct EngineArguments {
     /// borders. Otherwise they stay closed: hqms keeps them as they are, indices goes along them.
     #[arg(long)]
     open_seams: bool,
+    /// hqms: move vertices and turn edges in the end, so that the surface is nearer to the input's; half as much
+    /// time again.
+    #[arg(long)]
+    refine: bool,
     /// indices: go across seams too where the attributes, by their weights, allow it. The surface stays
     /// closed.
     #[arg(long)]
@@ -279,6 +283,9 @@ impl EngineArguments {
             let message = "weights of attributes and --cross-seams are for --engine indices";
             return Err(Failure::Options(message.into()));
         }
+        if self.engine != EngineName::Hqms && self.refine {
+            return Err(Failure::Options("--refine is for --engine hqms, which moves vertices".into()));
+        }
         Ok(())
     }
 
@@ -302,6 +309,7 @@ impl EngineArguments {
                 colors: self.color_weight,
             },
             cross_seams: self.cross_seams,
+            refine: self.refine,
             threads: self.threads,
             ..Options::new(target)
         }
@@ -561,6 +569,7 @@ mod tests {
             Selection::ReplacementSelection { records: 7 }
         );
         assert!(options("--lock-boundary").lock_boundary);
+        assert!(options("--refine").refine);
         assert_eq!(options("--engine indices").placement, Placement::Existing);
         let weighted =
             options("--engine indices --normal-weight 1 --uv-weight 2 --color-weight 3 --cross-seams");
@@ -576,7 +585,12 @@ mod tests {
         for line in ["", "--engine indices --uv-weight 1", "--engine indices --cross-seams"] {
             assert!(check(line).is_ok(), "{line}");
         }
-        for line in ["--uv-weight 1", "--cross-seams", "--engine multiple-choice --normal-weight 0.5"] {
+        for line in [
+            "--uv-weight 1",
+            "--cross-seams",
+            "--engine multiple-choice --normal-weight 0.5",
+            "--engine indices --refine",
+        ] {
             assert!(matches!(check(line), Err(Failure::Options(_))), "{line}");
         }
     }

@@ -6,6 +6,7 @@ use super::order::rank;
 #[cfg(feature = "io")]
 use super::pass::price;
 use super::pass::{TILE, Threshold, ranked_pass};
+use super::refine::refine;
 use super::{
     AttributeWeights, Options, Placement, Selection, Simplified, SimplifyError, StoppedBy, Target, Topology,
     replacement,
@@ -51,10 +52,13 @@ const STALLED: f32 = 0.002;
 /// How far a vertex may be placed outside the bounds of the input, as a share of their diagonal.
 const OVERSHOOT: f32 = 0.25;
 
+/// The share of the time that a run takes before the refinement.
+const REFINE_BEGINS: f32 = 0.65;
+
 /// A simplification under way.
 pub(crate) struct Run<'a> {
     options: &'a Options,
-    /// Needed to the end where no vertex moves, and only there.
+    /// Needed to the end where no vertex moves or the result is fitted to it, and only there.
     input: Option<Cow<'a, Mesh>>,
     /// Of the input.
     triangles: usize,
@@ -88,7 +92,7 @@ impl<'a> Run<'a> {
             rank: rank.as_deref(),
             locked: &locked,
             track: Track {
-                origins: options.track_origins,
+                origins: options.track_origins || options.refine,
                 sources: options.track_sources || half_edge,
                 collapses: options.track_collapses || options.track_origins && half_edge,
             },
@@ -101,7 +105,7 @@ impl<'a> Run<'a> {
             prioritized: &options.prioritized,
         };
         let (triangles, vertices) = (mesh.triangles().len(), mesh.positions().len());
-        let (mut surface, input) = if half_edge {
+        let (mut surface, input) = if half_edge || options.refine {
             (Surface::new(Cow::Borrowed(&mesh), &setting, &workers), Some(mesh))
         } else {
             (Surface::new(mesh, &setting, &workers), None)
@@ -339,9 +343,24 @@ impl<'a> Run<'a> {
         self.surface.set_errors(mesh.triangles(), spent);
     }
 
+    /// The share of the work that is done when the goal is reached.
+    pub(crate) fn reached(&self) -> f32 {
+        if self.options.refine { REFINE_BEGINS } else { 1.0 }
+    }
+
+    /// Fits what is left to the input, if that is asked for. What is reported lies in `share`.
+    pub(crate) fn refine(&mut self, share: Range<f32>, monitor: &mut Monitor) -> Result<(), Cancelled> {
+        if !self.options.refine {
+            return Ok(());
+        }
+        let report = |done| monitor.report(share.start + (share.end - share.start) * done);
+        let Some(input) = &self.input else { return Ok(()) };
+        refine(&mut self.surface, input, self.extent, &self.workers, report)
+    }
+
     /// The surface as it is now.
     pub(crate) fn result(&self, stopped_by: StoppedBy) -> Result<Simplified, SimplifyError> {
-        let unmoved = self.input.as_deref();
+        let unmoved = self.input.as_deref().filter(|_| moves_no_vertex(self.options));
         let Remains { mesh, origins, sources, groups, surface_vertices } = self.surface.to_mesh(unmoved)?;
         let largest = self.surface.points.iter().map(|point| point.w).fold(0.0, f32::max);
         // On a surface as wide as numbers go, the estimate may lie beyond the largest.
@@ -420,6 +439,9 @@ fn check(mesh: &Mesh, options: &Options) -> Result<(), SimplifyError> {
     if options.track_collapses && !moves_no_vertex(options) {
         let message = "collapses can be tracked where vertices stay (Placement::Existing) only";
         return invalid(message.into());
+    }
+    if options.refine && moves_no_vertex(options) {
+        return invalid("vertices cannot be refined where they stay (Placement::Existing)".into());
     }
     if options.selection == (Selection::ReplacementSelection { records: 0 }) {
         return invalid("a replacement-selection heap needs a record".into());

@@ -42,10 +42,11 @@ pub(crate) fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<V
         let placement = prop_oneof![Just(Placement::Optimal), Just(Placement::Existing)];
         let locked = prop_oneof![3 => Just(0u64), 1 => 0u64..100];
         let switches =
-            (prop::bool::weighted(0.25), any::<bool>(), any::<[bool; 2]>(), 1usize..3, any::<u64>());
+            (prop::bool::weighted(0.25), any::<bool>(), any::<[bool; 3]>(), 1usize..3, any::<u64>());
         (Just(mesh), target, selection, (topology, placement), locked, switches).prop_map(
             |(mesh, target, selection, (topology, placement), locked, switches)| {
-                let (lock_boundary, keep_seams, [track_origins, track_sources], threads, seed) = switches;
+                let (lock_boundary, keep_seams, [track_origins, track_sources, refine], threads, seed) =
+                    switches;
                 let vertices = 0..mesh.positions().len() as u32;
                 let locked = vertices.filter(|&vertex| noise(seed, vertex as usize) % 100 < locked).collect();
                 let options = Options {
@@ -56,6 +57,7 @@ pub(crate) fn with_options(mesh: impl Strategy<Value = Mesh>) -> impl Strategy<V
                     keep_seams,
                     locked,
                     threads,
+                    refine: refine && placement == Placement::Optimal,
                     track_origins,
                     track_sources,
                     ..Options::new(target)

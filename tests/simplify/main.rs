@@ -12,5 +12,7 @@ mod meshes;
 mod metamorphic;
 mod multiple_choice;
 mod places;
+#[cfg(feature = "deviation")]
+mod refine;
 mod seams;
 mod zero_error;

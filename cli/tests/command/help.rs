@@ -37,6 +37,7 @@ fn help_of_simplify_names_all_options() {
         "records",
         "lock-boundary",
         "memory",
+        "refine",
         "keep-topology",
         "allow-topology",
         "weld",

@@ -133,6 +133,8 @@ pub(crate) struct Surface {
     cross_seams: bool,
     /// Of blocks of faces, while tiles look at them.
     spans: Vec<Range<u32>>,
+    /// Of all vertices, while the surface is fitted to the input.
+    rings: Rings,
     /// Positions are multiplied by this power of two, and divided by it in the end.
     scale: f32,
 }
@@ -214,6 +216,7 @@ impl Surface {
             rows,
             cross_seams: setting.cross_seams,
             spans: Vec::new(),
+            rings: Rings::default(),
             scale,
         }
     }
@@ -221,6 +224,46 @@ impl Surface {
     /// Positions are the input's times this.
     pub(crate) fn scale(&self) -> f32 {
         self.scale
+    }
+
+    /// For each vertex of the input the vertex it is in since the last [`compact`](Self::compact), or [`NONE`],
+    /// if that is tracked.
+    pub(crate) fn origins(&self) -> Option<&[u32]> {
+        self.origins.as_deref()
+    }
+
+    /// Finds the rings of all vertices, which [`ring`](Self::ring) needs: of the faces as they are now.
+    pub(crate) fn find_rings(&mut self) {
+        self.rings = Rings::new(&self.faces, &[], 0..self.points.len() as u32);
+    }
+
+    /// Gives the rings' memory back.
+    pub(crate) fn drop_rings(&mut self) {
+        self.rings = Rings::default();
+    }
+
+    /// The corners of the faces around a vertex, as `face << 2 | corner`, in the order of the faces. Needs the
+    /// rings.
+    #[inline(always)]
+    pub(crate) fn ring(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
+        self.rings.around(vertex).iter().copied()
+    }
+
+    /// The vertices of a face.
+    #[inline(always)]
+    pub(crate) fn corners(&self, face: u32) -> [u32; 3] {
+        corners(&self.faces[face as usize])
+    }
+
+    /// Gives a face other vertices. The rings then have to be found anew.
+    pub(crate) fn set_corners(&mut self, face: u32, vertices: [u32; 3]) {
+        self.faces[face as usize] = vertices.map(AtomicU32::new);
+    }
+
+    /// The vertex at a corner.
+    #[inline(always)]
+    pub(crate) fn vertex(&self, corner: u32) -> u32 {
+        self.faces[(corner >> 2) as usize][(corner & 3) as usize].load(Relaxed)
     }
 
     /// How many vertices the result has.
