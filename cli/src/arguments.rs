@@ -210,8 +210,8 @@ pub(crate) struct EngineArguments {
     /// borders. Otherwise they stay closed: hqms keeps them as they are, indices goes along them.
     #[arg(long)]
     open_seams: bool,
-    /// hqms: move vertices and turn edges in the end, so that the surface is nearer to the input's; half as much
-    /// time again.
+    /// hqms: move vertices and turn edges in the end, so that the surface is nearer to the input's: 6 to 10 %
+    /// less RMS, in 1.2 to 4 times the time.
     #[arg(long)]
     refine: bool,
     /// indices: go across seams too where the attributes, by their weights, allow it. The surface stays

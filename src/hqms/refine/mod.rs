@@ -19,7 +19,8 @@
 //!   and a vertex is held near the input itself ([`anchors`]), as the least squares would else draw the
 //!   ends of limbs out into spikes, which no point of the input is far from.
 //!
-//! Linear time: about half as much as the simplification, at a tenth of the triangles.
+//! Linear time, in the triangles of the input and more so in those of the result: beside the simplification,
+//! 0.2 of its time at a hundredth of the triangles, 0.6 at a tenth, up to 3 at a half.
 
 mod anchors;
 mod descent;
