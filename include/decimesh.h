@@ -1255,7 +1255,7 @@ void decimesh_simplify_report_init(struct decimesh_simplify_report *report,
  * not NULL, has been set up by decimesh_simplify_report_init. Fails with _NULL, _STRUCT_SIZE,
  * _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
- * Linear time; about 36 bytes of memory a triangle, and the result. Any thread; progress is told on the
+ * Linear time; about 24 bytes of memory a triangle, and the result. Any thread; progress is told on the
  * calling one.
  */
 decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
@@ -1279,7 +1279,7 @@ decimesh_status decimesh_simplify(const struct decimesh_mesh *mesh,
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
  *
- * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included, and 75 if normals have
+ * Linear time; about 48 bytes of memory a triangle, the copy of the buffers included, and 66 if normals have
  * a weight. Any thread; progress is told on the calling one.
  */
 decimesh_status decimesh_simplify_indices(void *destination,
@@ -1301,7 +1301,7 @@ decimesh_status decimesh_simplify_indices(void *destination,
  * *report, if it is not NULL, has been set up by decimesh_simplify_report_init. Fails as
  * decimesh_mesh_from_buffers() and decimesh_simplify() do; then nothing was written.
  *
- * Linear time; about 60 bytes of memory a triangle, the copy of the buffers included. No other thread may
+ * Linear time; about 30 bytes of memory a triangle, the copy of the buffers included. No other thread may
  * use the buffers meanwhile; progress is told on the calling thread.
  */
 decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers *buffers,
@@ -1319,7 +1319,7 @@ decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers
  * *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
  * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
- * Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+ * Linear time; about 24 bytes of memory a triangle, and the levels. Any thread; progress is told on the
  * calling one.
  */
 decimesh_status decimesh_levels_build(const struct decimesh_mesh *mesh,
@@ -1499,7 +1499,7 @@ void decimesh_nested_level_init(struct decimesh_nested_level *level,
  * *nested receives the levels, which the caller ends with decimesh_nested_destroy(). Fails with _NULL,
  * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
- * Linear time; about 70 bytes of memory a triangle for three levels that halve, what they hold included. Any
+ * Linear time; about 62 bytes of memory a triangle for three levels that halve, what they hold included. Any
  * thread; progress is told on the calling one.
  */
 decimesh_status decimesh_nested_build(const struct decimesh_mesh *mesh,

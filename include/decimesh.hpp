@@ -630,7 +630,7 @@ struct Simplified {
 /// Simplifies `mesh`. A target that cannot be met is no error: the result is then as small as the options
 /// allow, and `Report::stopped_by` says why.
 ///
-/// Linear time; at its peak about 36 bytes a triangle of a closed mesh, and the result.
+/// Linear time; at its peak about 24 bytes a triangle of a closed mesh, and the result.
 Simplified simplify(MeshView mesh, const Options &options = {});
 
 /// A simplified mesh, and what its distance from the input is guaranteed to be.

@@ -82,7 +82,8 @@ pub(crate) struct SimplifyArguments {
     pub(crate) target: TargetArguments,
     /// With --max-error: no point of either surface is farther from the other, which is proven, in place of
     /// estimated. Fewer triangles too, but takes many times as long.
-    #[arg(long, requires = "max_error")]
+    // Not "requires": clap does not ask for what conflicts with what is there.
+    #[arg(long, conflicts_with_all = ["triangles", "vertices", "ratio"])]
     pub(crate) certify: bool,
     #[command(flatten)]
     pub(crate) engine: EngineArguments,

@@ -67,7 +67,7 @@ pub(super) unsafe fn read_chain(
 /// *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
 /// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
-/// Linear time; about 36 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+/// Linear time; about 24 bytes of memory a triangle, and the levels. Any thread; progress is told on the
 /// calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_levels_build(

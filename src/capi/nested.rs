@@ -103,7 +103,7 @@ pub unsafe extern "C" fn decimesh_nested_level_init(level: *mut decimesh_nested_
 /// *nested receives the levels, which the caller ends with decimesh_nested_destroy(). Fails with _NULL,
 /// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
-/// Linear time; about 70 bytes of memory a triangle for three levels that halve, what they hold included. Any
+/// Linear time; about 62 bytes of memory a triangle for three levels that halve, what they hold included. Any
 /// thread; progress is told on the calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_nested_build(

@@ -488,7 +488,7 @@ pub unsafe extern "C" fn decimesh_simplify_report_init(
 /// not NULL, has been set up by decimesh_simplify_report_init. Fails with _NULL, _STRUCT_SIZE,
 /// _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
-/// Linear time; about 36 bytes of memory a triangle, and the result. Any thread; progress is told on the
+/// Linear time; about 24 bytes of memory a triangle, and the result. Any thread; progress is told on the
 /// calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_simplify(

@@ -188,6 +188,8 @@ fn what_is_no_distance_or_no_option_is_an_error() {
         let message = error_of(max_error, &options);
         assert!(message.contains("maximum error") && message.contains(words), "{message}");
     }
+    let message = error_of(0.1, &Options { refine: true, ..options.clone() });
+    assert!(message.contains("refined"), "{message}");
     let message = error_of(0.1, &Options { locked: vec![7_000], ..options });
     assert!(message.contains("locked vertex 7000"), "{message}");
 }
