@@ -195,7 +195,7 @@ fn sample(
             .map(|index| {
                 let (vertex, corners) = (rings.vertex(index), rings.around(index));
                 let cost =
-                    cost(tile, vertex, corners, flag::BLOCKED, f32::INFINITY, measure, rules, &mut scratch);
+                    cost(tile, (vertex, corners), flag::BLOCKED, f32::INFINITY, measure, rules, &mut scratch);
                 (vertex, cost.map_or(UNUSABLE, |(cost, _)| cost))
             })
             .collect::<Vec<_>>()
@@ -246,8 +246,7 @@ fn as_cost(threshold: u32) -> f32 {
 #[inline(always)]
 fn cost(
     tile: &Tile,
-    vertex: u32,
-    corners: &[u32],
+    (vertex, corners): (u32, &[u32]),
     unusable: u8,
     limit: f32,
     measure: Measure,
@@ -309,7 +308,7 @@ fn sweep(
         if spent + goal.step() > budget {
             break;
         }
-        let found = cost(tile, vertex, tile.corners(vertex), 0, limit, measure, rules, &mut scratch);
+        let found = cost(tile, (vertex, tile.corners(vertex)), 0, limit, measure, rules, &mut scratch);
         let Some((cost, neighbour)) = found else { continue };
         tile.unblock(vertex);
         if cost >= threshold {
@@ -363,7 +362,7 @@ pub(crate) fn ranked_pass(
             let block = first..(first + TILE as u32).min(tile.vertices().end);
             let cost = |vertex| {
                 let (cost, _) =
-                    cost(tile, vertex, tile.corners(vertex), 0, limit, measure, rules, &mut scratch)?;
+                    cost(tile, (vertex, tile.corners(vertex)), 0, limit, measure, rules, &mut scratch)?;
                 (cost < limit.to_bits()).then_some((cost, vertex))
             };
             block.filter_map(cost).collect::<Vec<_>>()
@@ -382,7 +381,8 @@ pub(crate) fn ranked_pass(
         if spent >= goal.excess(counts) {
             break;
         }
-        let found = cost(&tile, vertex, tile.corners(vertex), 0, f32::INFINITY, measure, rules, &mut scratch);
+        let found =
+            cost(&tile, (vertex, tile.corners(vertex)), 0, f32::INFINITY, measure, rules, &mut scratch);
         if let Some((_, neighbour)) = found
             && let Some(counts) = tile.collapse(neighbour, rules, &mut scratch)
         {

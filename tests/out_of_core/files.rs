@@ -16,8 +16,7 @@ fn encodings_make_no_difference() {
         decimesh::io::Encoding::BinaryBigEndian,
         decimesh::io::Encoding::Ascii,
     ] {
-        let mut options = decimesh::io::WriteOptions::default();
-        options.encoding = encoding;
+        let options = decimesh::io::WriteOptions { encoding };
         decimesh::io::write(&mesh, &bench.path("in.ply"), &options).unwrap();
         bench.simplify(&Options::new(Target::Ratio(0.1)), 4 * MEGABYTE);
         outputs.push(bench.output());
