@@ -40,7 +40,8 @@ pub enum Target {
     Ratio(f64),
     /// As few triangles as an estimated distance of this much, in units of the positions, allows.
     ///
-    /// What is measured then is mostly 0.4 to 1.2 times as much (from 0.09 to 2.32 on 28 meshes from 0.02 to 2 % of the diagonal).
+    /// What is measured then is mostly 0.4 to 1.2 times as much (from 0.09 to 2.32 on 28 meshes, from 0.02 to 2 %
+    /// of the diagonal).
     /// `simplify_within` (feature `deviation`) proves it, and leaves fewer triangles.
     MaxError(f32),
 }
@@ -179,8 +180,9 @@ pub struct Simplified {
     pub mesh: Mesh,
     /// Why it is as large as it is.
     pub stopped_by: StoppedBy,
-    /// Estimated largest distance from the input, in units of the positions: a sum over collapses, of which what is
-    /// measured is mostly 0.2 to 0.6 times as much (from 0.05 to 1.02 on 28 meshes, to 50, 10 and 1 % of the triangles).
+    /// Estimated largest distance from the input, in units of the positions: a sum over collapses, of which
+    /// what is measured is mostly 0.2 to 0.6 times as much (from 0.05 to 1.02 on 28 meshes, to 50, 10 and 1 %
+    /// of the triangles).
     /// What [`Options::refine`] has done since does not count.
     pub error: f32,
     /// Estimated largest difference of the attributes from the input's, weighted: in units of the positions,

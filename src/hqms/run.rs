@@ -350,11 +350,8 @@ impl<'a> Run<'a> {
 
     /// Fits what is left to the input, if that is asked for. What is reported lies in `share`.
     pub(crate) fn refine(&mut self, share: Range<f32>, monitor: &mut Monitor) -> Result<(), Cancelled> {
-        if !self.options.refine {
-            return Ok(());
-        }
+        let Some(input) = self.input.as_deref().filter(|_| self.options.refine) else { return Ok(()) };
         let report = |done| monitor.report(share.start + (share.end - share.start) * done);
-        let Some(input) = &self.input else { return Ok(()) };
         refine(&mut self.surface, input, self.extent, &self.workers, report)
     }
 

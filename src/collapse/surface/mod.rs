@@ -304,7 +304,9 @@ impl Surface {
 
     /// The surface cut into tiles before each of the vertices `cuts`, which ascend. Tiles have no rings yet.
     pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>, workers: &Workers) -> Vec<Tile<'_>> {
-        self.spans = rings::spans(&self.faces, workers);
+        let mut cuts = cuts.peekable();
+        // A single tile has all faces.
+        self.spans = if cuts.peek().is_some() { rings::spans(&self.faces, workers) } else { Vec::new() };
         self.cut(cuts)
     }
 

@@ -52,13 +52,7 @@ impl Rings {
                 }
             }
         }
-        let mut sum = 0;
-        // Each is the end of its ring first, and counts back while the ring is filled.
-        for offset in &mut offsets {
-            sum += *offset;
-            *offset = sum;
-        }
-        let mut corners_around = vec![0; sum as usize];
+        let mut corners_around = vec![0; to_ends(&mut offsets)];
         for &index in near.iter().rev() {
             for (corner, vertex) in (0..).zip(corners(&faces[index as usize])) {
                 if let Some(end) = offsets[..own].get_mut(vertex.wrapping_sub(first) as usize) {
@@ -83,7 +77,7 @@ pub(super) fn touching<'a>(
     faces: &'a [Face],
     spans: &'a [Range<u32>],
     vertices: &'a Range<u32>,
-) -> impl DoubleEndedIterator<Item = (usize, &'a [Face])> {
+) -> impl Iterator<Item = (usize, &'a [Face])> {
     let touches = |block: usize| {
         spans.get(block).is_none_or(|span| span.start < vertices.end && vertices.start < span.end)
     };
@@ -150,12 +144,7 @@ impl SampledRings {
         for &(index, _) in found.iter().flatten() {
             rings.offsets[index] += 1;
         }
-        let mut sum = 0;
-        for offset in &mut rings.offsets {
-            sum += *offset;
-            *offset = sum;
-        }
-        rings.corners = vec![0; sum as usize];
+        rings.corners = vec![0; to_ends(&mut rings.offsets)];
         for &(index, corner) in found.iter().flatten().rev() {
             let end = &mut rings.offsets[index];
             *end -= 1;
@@ -178,6 +167,17 @@ impl SampledRings {
     pub(crate) fn around(&self, index: usize) -> &[u32] {
         &self.corners[self.offsets[index] as usize..self.offsets[index + 1] as usize]
     }
+}
+
+/// Makes of the sizes of rows where each ends, from which it counts back to its beginning while the row is filled
+/// backwards; how much all hold.
+fn to_ends(sizes: &mut [u32]) -> usize {
+    let mut sum = 0;
+    for size in sizes {
+        sum += *size;
+        *size = sum;
+    }
+    sum as usize
 }
 
 /// Cuts a slice before each of `cuts`, which ascend.
