@@ -9,7 +9,6 @@
 //! one collapse a pass, the vertices visited in their order.
 
 use super::goal::Goal;
-use crate::collapse::ring::Ring;
 use crate::collapse::surface::{Surface, flag};
 use crate::collapse::tile::{Scratch, Tile};
 use crate::collapse::{Counts, Rules};
@@ -56,36 +55,12 @@ const PRICED: f32 = 0.25;
 /// No vertex has this cost: the bits of costs are below it.
 const UNUSABLE: u32 = u32::MAX;
 
-/// By what costs are ordered.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Measure {
-    /// Squared distances, summed over the area: of all the least mean error, but where triangles are small a
-    /// vertex may go far away for little.
-    Area,
-    /// The same, divided by the root of the area: half the way to squared distances whatever the area, whose
-    /// largest is least. Near the goal this takes up to a third of the maximum error at half and a quarter of the
-    /// triangles, for 1 to 2 % of the mean; further away, and for few triangles, it takes nothing.
-    RootArea,
-}
-
-impl Measure {
-    /// What a ring's vertex costs by it.
-    #[inline(always)]
-    fn of(self, cost: f32, ring: &Ring) -> f32 {
-        match self {
-            Self::Area => cost,
-            Self::RootArea => cost / (ring.quadric.trace() + f32::MIN_POSITIVE).sqrt(),
-        }
-    }
-}
-
 /// The state that a run carries from pass to pass.
 pub(crate) struct Threshold {
     passes: usize,
     /// Collapses of the last pass as a share of those below its threshold.
     yielded: f32,
     slow: bool,
-    measure: Measure,
     /// The bits of the last threshold, and whether its pass removed enough that more may be found
     /// near it.
     threshold: u32,
@@ -94,7 +69,7 @@ pub(crate) struct Threshold {
 
 impl Threshold {
     pub(crate) fn new() -> Self {
-        Self { passes: 0, yielded: 0.5, slow: false, measure: Measure::Area, productive: false, threshold: 0 }
+        Self { passes: 0, yielded: 0.5, slow: false, productive: false, threshold: 0 }
     }
 
     /// One pass. Removes at most the goal's excess.
@@ -114,15 +89,11 @@ impl Threshold {
             (false, true) => SHARE_NEAR_HALF_EDGE,
             (false, false) => SHARE_NEAR,
         };
-        let measure = if far || rules.half_edge { Measure::Area } else { Measure::RootArea };
-        // Thresholds of another measure say nothing.
-        self.productive &= measure == self.measure;
-        self.measure = measure;
         let wanted = goal.collapses(counts) as f32 / vertices as f32;
-        let mut samples = sample(surface, wanted < SMALL, measure, rules, workers);
+        let mut samples = sample(surface, wanted < SMALL, rules, workers);
         if rules.may_relax && seams_hold(surface, &samples, goal, counts) {
             surface.cross_seams();
-            samples = sample(surface, wanted < SMALL, measure, rules, workers);
+            samples = sample(surface, wanted < SMALL, rules, workers);
         }
         let usable =
             samples.iter().filter(|(_, cost)| *cost < UNUSABLE).count() as f32 / samples.len() as f32;
@@ -141,7 +112,7 @@ impl Threshold {
             let batch = work.drain(..BATCH.min(work.len())).collect();
             let sweep = |(mut tile, budget): (Tile, usize)| {
                 tile.find_rings();
-                let removed = sweep(&mut tile, threshold, measure, goal, budget, rules);
+                let removed = sweep(&mut tile, threshold, goal, budget, rules);
                 (removed, tile.into_collapses())
             };
             for (of_tile, more) in workers.map(batch, sweep) {
@@ -172,13 +143,7 @@ impl Threshold {
 /// Vertices strided over the surface, many or some, with their costs. Those that cannot collapse,
 /// or could not in the last pass, are [`UNUSABLE`]: they would pull the threshold down to what is
 /// never executed.
-fn sample(
-    surface: &mut Surface,
-    many: bool,
-    measure: Measure,
-    rules: &Rules,
-    workers: &Workers,
-) -> Vec<(u32, u32)> {
+fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -> Vec<(u32, u32)> {
     let vertices = surface.points.len();
     let most = if many { MANY_SAMPLES } else { SAMPLES };
     let count = if rules.half_edge {
@@ -194,8 +159,7 @@ fn sample(
         block
             .map(|index| {
                 let (vertex, corners) = (rings.vertex(index), rings.around(index));
-                let cost =
-                    cost(tile, (vertex, corners), flag::BLOCKED, f32::INFINITY, measure, rules, &mut scratch);
+                let cost = cost(tile, (vertex, corners), flag::BLOCKED, f32::INFINITY, rules, &mut scratch);
                 (vertex, cost.map_or(UNUSABLE, |(cost, _)| cost))
             })
             .collect::<Vec<_>>()
@@ -208,7 +172,7 @@ fn sample(
 #[cfg(feature = "io")]
 pub(super) fn price(surface: &mut Surface, rules: &Rules, workers: &Workers) -> f32 {
     let mut costs: Vec<u32> =
-        sample(surface, true, Measure::Area, rules, workers).into_iter().map(|(_, cost)| cost).collect();
+        sample(surface, true, rules, workers).into_iter().map(|(_, cost)| cost).collect();
     costs.retain(|&cost| cost < UNUSABLE);
     let index = (costs.len() as f32 * PRICED) as usize;
     costs.sort_unstable();
@@ -249,7 +213,6 @@ fn cost(
     (vertex, corners): (u32, &[u32]),
     unusable: u8,
     limit: f32,
-    measure: Measure,
     rules: &Rules,
     scratch: &mut Scratch,
 ) -> Option<(u32, u32)> {
@@ -263,7 +226,7 @@ fn cost(
     } else {
         scratch.source.cheapest_neighbour(|_| true)
     };
-    cheapest.map(|(cost, neighbour)| (measure.of(cost, &scratch.source).to_bits(), neighbour))
+    cheapest.map(|(cost, neighbour)| (cost.to_bits(), neighbour))
 }
 
 /// Shares the excess among the tiles as the samples below the threshold are, so that no thread
@@ -292,14 +255,7 @@ fn budgets(tiles: &[Tile], samples: &[(u32, u32)], threshold: u32, goal: Goal, e
 /// Collapses what is below the threshold in a tile, in the order of its vertices. This is where the time goes:
 /// compiled once more for processors with wider instructions, which round the same.
 #[multiversion(targets("x86_64+avx2+bmi1+bmi2"))]
-fn sweep(
-    tile: &mut Tile,
-    threshold: u32,
-    measure: Measure,
-    goal: Goal,
-    budget: usize,
-    rules: &Rules,
-) -> Counts {
+fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rules) -> Counts {
     let mut scratch = Scratch::default();
     let mut removed = Counts::default();
     let mut spent = 0;
@@ -308,7 +264,7 @@ fn sweep(
         if spent + goal.step() > budget {
             break;
         }
-        let found = cost(tile, (vertex, tile.corners(vertex)), 0, limit, measure, rules, &mut scratch);
+        let found = cost(tile, (vertex, tile.corners(vertex)), 0, limit, rules, &mut scratch);
         let Some((cost, neighbour)) = found else { continue };
         tile.unblock(vertex);
         if cost >= threshold {
@@ -318,9 +274,7 @@ fn sweep(
             Some(neighbour)
         } else {
             let second = scratch.source.cheapest_neighbour(|neighbour| tile.is_unused(neighbour));
-            second
-                .filter(|(cost, _)| measure.of(*cost, &scratch.source).to_bits() < threshold)
-                .map(|(_, neighbour)| neighbour)
+            second.filter(|(cost, _)| cost.to_bits() < threshold).map(|(_, neighbour)| neighbour)
         };
         if let Some(target) = target
             && let Some(counts) = tile.collapse(target, rules, &mut scratch)
@@ -341,13 +295,12 @@ pub(crate) fn ranked_pass(
     rules: &Rules,
     workers: &Workers,
 ) -> Counts {
-    let measure = if rules.half_edge { Measure::Area } else { Measure::RootArea };
     let wanted = goal.collapses(counts);
     // Most fail because a neighbour was used before.
     let enough = 6 * wanted + 64;
     let quantile = 1.5 * enough as f32 / surface.points.len() as f32;
     let limit = if rules.half_edge && quantile < 1.0 {
-        as_cost(threshold(&sample(surface, true, measure, rules, workers), quantile))
+        as_cost(threshold(&sample(surface, true, rules, workers), quantile))
     } else {
         f32::INFINITY
     };
@@ -361,8 +314,7 @@ pub(crate) fn ranked_pass(
             let mut scratch = Scratch::default();
             let block = first..(first + TILE as u32).min(tile.vertices().end);
             let cost = |vertex| {
-                let (cost, _) =
-                    cost(tile, (vertex, tile.corners(vertex)), 0, limit, measure, rules, &mut scratch)?;
+                let (cost, _) = cost(tile, (vertex, tile.corners(vertex)), 0, limit, rules, &mut scratch)?;
                 (cost < limit.to_bits()).then_some((cost, vertex))
             };
             block.filter_map(cost).collect::<Vec<_>>()
@@ -381,8 +333,7 @@ pub(crate) fn ranked_pass(
         if spent >= goal.excess(counts) {
             break;
         }
-        let found =
-            cost(&tile, (vertex, tile.corners(vertex)), 0, f32::INFINITY, measure, rules, &mut scratch);
+        let found = cost(&tile, (vertex, tile.corners(vertex)), 0, f32::INFINITY, rules, &mut scratch);
         if let Some((_, neighbour)) = found
             && let Some(counts) = tile.collapse(neighbour, rules, &mut scratch)
         {
