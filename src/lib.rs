@@ -51,6 +51,7 @@ pub mod internals {
 }
 #[cfg(feature = "io")]
 pub mod io;
+mod lanes;
 pub mod lod;
 pub mod mesh;
 mod monitor;

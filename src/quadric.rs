@@ -11,6 +11,7 @@
 //! regions too, and is drawn to the plane on which the volume stays what it is (Lindstrom and Turk,
 //! *Fast and memory efficient polygonal simplification*, 1998): without that, thin limbs waste away.
 
+use crate::lanes::{Numbers, Vectors, sums};
 use glam::Vec3A;
 
 /// How much the placement is drawn to the middle of the edge, as a share of the quadric's trace.
@@ -65,6 +66,27 @@ pub(crate) struct Quadric {
 }
 
 impl Quadric {
+    /// That of the planes of faces, each weighted by its area, given the cross products of two edges of each. A
+    /// face without area adds nothing.
+    #[inline(always)]
+    pub(crate) fn of_faces(crosses: impl Iterator<Item = Vectors>) -> Self {
+        let mut sum = [Numbers::ZERO; 9];
+        for cross in crosses {
+            let length = (cross.length_squared() + Numbers::splat(f32::MIN_POSITIVE)).sqrt();
+            let [x, y, z] = cross.coordinates();
+            let [scaled_x, scaled_y, scaled_z] = (cross * (Numbers::splat(0.5) / length)).coordinates();
+            let [xx, xy, xz] = [scaled_x * x, scaled_x * y, scaled_x * z];
+            let [yy, yz, zz] = [scaled_y * y, scaled_y * z, scaled_z * z];
+            let of_block = [xx, xy, xz, yy, yz, zz, x, y, z];
+            sum = std::array::from_fn(|index| sum[index] + of_block[index]);
+        }
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = sum;
+        let [xx, xy, xz, yy] = sums([xx, xy, xz, yy]);
+        let [yz, zz, x, y] = sums([yz, zz, x, y]);
+        let [z, ..] = sums([z; 4]);
+        Self { xx, xy, xz, yy, yz, zz, sweep: [x, y, z] }
+    }
+
     /// Adds the plane with this (any length) `normal`, each unit of squared length weighing `weight`.
     #[inline(always)]
     pub(crate) fn add_plane(&mut self, normal: Vec3A, weight: f32) {
@@ -134,7 +156,18 @@ impl Quadric {
         cost.max(0.0)
     }
 
-    fn sweep(&self) -> Vec3A {
+    /// The same at four places.
+    #[inline(always)]
+    pub(crate) fn at_each(&self, places: Vectors) -> Numbers {
+        let [x, y, z] = places.coordinates();
+        let [xx, yy, zz] = [self.xx, self.yy, self.zz].map(Numbers::splat);
+        let [xy, xz, yz] = [2.0 * self.xy, 2.0 * self.xz, 2.0 * self.yz].map(Numbers::splat);
+        let cost = x * (xx * x + (xy * y + xz * z)) + y * (yy * y + yz * z) + z * zz * z;
+        cost.fast_max(Numbers::ZERO)
+    }
+
+    /// The sum of the faces' vector areas, doubled; zero of what was [opened](Self::open).
+    pub(crate) fn sweep(&self) -> Vec3A {
         Vec3A::from(self.sweep)
     }
 
@@ -180,34 +213,6 @@ impl Quadric {
         let y = y1 * inverse_1 - l21 * z;
         let x = right.x * inverse_0 - l10 * y - l20 * z;
         Vec3A::new(x, y, z)
-    }
-}
-
-/// A [`Quadric`] in the making: the rows of the whole matrix, as vectors of four lanes: adding a
-/// plane to them takes fewer instructions than to six numbers.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct QuadricSum {
-    rows: [Vec3A; 3],
-    sweep: Vec3A,
-}
-
-impl QuadricSum {
-    /// Adds the plane of a face, weighted by its area; `cross` is the cross product of two of its
-    /// edges. A face without area adds nothing.
-    #[inline(always)]
-    pub(crate) fn add_face(&mut self, cross: Vec3A) {
-        let scaled = cross * (0.5 / (cross.length_squared() + f32::MIN_POSITIVE).sqrt());
-        self.rows[0] += cross * scaled.x;
-        self.rows[1] += cross * scaled.y;
-        self.rows[2] += cross * scaled.z;
-        self.sweep += cross;
-    }
-
-    /// The sum.
-    #[inline(always)]
-    pub(crate) fn quadric(&self) -> Quadric {
-        let [x, y, z] = self.rows;
-        Quadric { xx: x.x, xy: x.y, xz: x.z, yy: y.y, yz: y.z, zz: z.z, sweep: self.sweep.to_array() }
     }
 }
 
@@ -286,6 +291,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::lanes::LANES;
 
     fn vector(range: f32) -> impl Strategy<Value = Vec3A> {
         [-range..range, -range..range, -range..range].prop_map(Vec3A::from)
@@ -301,6 +307,10 @@ mod tests {
         let mut quadric = Quadric::default();
         planes.iter().for_each(|&(normal, weight)| quadric.add_plane(normal, weight));
         quadric
+    }
+
+    fn of_faces(crosses: &[Vec3A]) -> Quadric {
+        Quadric::of_faces(crosses.chunks(LANES).map(Vectors::filled_up))
     }
 
     /// The weighted sum of squared distances from planes through `origin`.
@@ -342,9 +352,7 @@ mod tests {
         fn a_face_weighs_as_its_area(a in vector(2.0), b in vector(2.0), x in vector(2.0)) {
             let cross = a.cross(b);
             prop_assume!(cross.length() > 1e-2);
-            let mut sum = QuadricSum::default();
-            sum.add_face(cross);
-            let face = sum.quadric();
+            let face = of_faces(&[cross]);
             let expected = 0.5 * cross.length() * x.dot(cross.normalize()).powi(2);
             prop_assert!((face.at(x) - expected).abs() <= 1e-4 * cross.length() * x.length_squared() + 1e-9);
         }
@@ -370,12 +378,7 @@ mod tests {
             edge in vector(2.0),
         ) {
             prop_assume!(edge.length() > 0.2);
-            let ring = |crosses: &[Vec3A]| {
-                let mut sum = QuadricSum::default();
-                crosses.iter().for_each(|&cross| sum.add_face(cross));
-                sum.quadric()
-            };
-            let (source, target) = (ring(&source), ring(&target));
+            let (source, target) = (of_faces(&source), of_faces(&target));
             let trace = source.plus(&target).trace();
             prop_assume!(source.plus(&target).sweep().length() > 0.1 * trace);
             let swept = |offset: Vec3A| source.sweep().dot(offset) + target.sweep().dot(offset - edge);

@@ -135,7 +135,7 @@ impl AttributeQuadric {
         self.sectors.clear();
         let rows = rows.of_width::<W>();
         let row = |wedge: u32| &rows[names.vertex(wedge) as usize];
-        for (index, spoke) in ring.spokes().iter().enumerate() {
+        for (index, spoke) in ring.spokes().enumerate() {
             let wedge = wedges.own[index];
             let known = self.sectors.iter().position(|sector| sector.wedge == wedge);
             let sector = known.unwrap_or_else(|| {

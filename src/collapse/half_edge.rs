@@ -107,11 +107,11 @@ impl Terms<'_> {
                 neighbours.push(Neighbour { cost, name, edge, face, is_before });
             }
         };
-        for (face, (&next, spoke)) in ring.next().iter().zip(ring.spokes()).enumerate() {
+        for (face, ((next, _), spoke)) in ring.names().zip(ring.spokes()).enumerate() {
             consider(next, spoke.to_next, face, false);
         }
         if ring.boundary {
-            for (face, (&previous, spoke)) in ring.previous().iter().zip(ring.spokes()).enumerate() {
+            for (face, ((_, previous), spoke)) in ring.names().zip(ring.spokes()).enumerate() {
                 consider(previous, spoke.to_previous, face, true);
             }
         }

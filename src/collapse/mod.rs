@@ -13,9 +13,10 @@ pub(crate) mod surface;
 pub(crate) mod tile;
 pub(crate) mod wedges;
 
+use crate::lanes::{Numbers, Vectors, largest};
 use crate::quadric::place;
 use glam::{Vec3A, Vec4};
-use ring::Ring;
+use ring::{Ring, Spokes};
 
 /// How much a surface has, or lost.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -122,15 +123,18 @@ impl Edge<'_> {
         };
         // What is checked is the place after rounding: far from the origin that is another one.
         let from_source = position - from;
-        let mut distance_squared = fold(self.source, self.target.vertex, from_source)?;
-        if !target_stays {
-            let of_target = fold(self.target, self.source.vertex, position - into)?;
-            distance_squared = distance_squared.max(of_target);
-        }
-        if self.source.is_pointed() {
+        let moved = fold(self.source, self.target.vertex, from_source)?;
+        let mut distance_squared = moved.distance_squared;
+        let target_moved = if target_stays {
+            Moved::default()
+        } else {
+            fold(self.target, self.source.vertex, position - into)?
+        };
+        distance_squared = distance_squared.max(target_moved.distance_squared);
+        if moved.is_pointed {
             distance_squared = distance_squared.max(self.retreat_squared(from, position, target_stays));
         }
-        if !target_stays && self.target.is_pointed() {
+        if target_moved.is_pointed {
             distance_squared = distance_squared.max(self.retreat_squared(into, position, target_stays));
         }
         // What stays where it is adds nothing to the error that led there.
@@ -230,16 +234,15 @@ impl Edge<'_> {
     fn joins_faces(&self) -> bool {
         let source = self.source.vertex;
         let mut opposite = [source; 2];
-        for (next, previous) in self.target.names() {
-            if next == source {
-                opposite[0] = previous;
-            } else if previous == source {
-                opposite[1] = next;
+        self.target.visit_faces_with(source, |face, comes_after| {
+            if comes_after {
+                opposite[0] = self.target.name(face).1;
+            } else {
+                opposite[1] = self.target.name(face).0;
             }
-        }
+        });
         let [a, b] = opposite;
-        let spans = |ring: &Ring| ring.names().any(|pair| pair == (a, b) || pair == (b, a));
-        a == b || spans(self.source) && spans(self.target)
+        a == b || self.source.has_face([a, b]) && self.target.has_face([a, b])
     }
 }
 
@@ -248,33 +251,48 @@ fn goes_onto_border(inner: &Ring, other: &Ring) -> bool {
     other.boundary && !inner.boundary
 }
 
+/// What is known of a vertex that may move.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Moved {
+    /// The largest squared distance of the new place from the planes of the ring.
+    distance_squared: f32,
+    /// The vertex is a tip, of a border or of a surface some of whose faces hardly look where the vertex does:
+    /// when it goes back, the distance from its faces' planes says little.
+    is_pointed: bool,
+}
+
 /// Moves the ring's vertex by `offset` and looks at each face that survives a collapse with
-/// `other`: `None` if one turns by too much or becomes a line, else the largest squared distance of
-/// the new place from the planes of the ring.
+/// `other`: `None` if one turns by too much or becomes a line.
 ///
 /// Faces that have no area before have no side to be turned from. They are common in real data, and
 /// would block every collapse around them.
 #[inline(always)]
-fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<f32> {
-    let mut distance_squared = 0f32;
-    let mut folded = false;
-    for ((next, previous), spoke) in ring.names().zip(ring.spokes()) {
-        let before = spoke.cross;
-        let after = spoke.moved(offset);
-        let area_before = before.length_squared();
-        let area_after = after.length_squared();
-        let cosine = before.dot(after);
-        let turns = (cosine <= 0.0) | (cosine * cosine < TURN * area_before * area_after);
-        let narrow = is_line(area_after, spoke.to_next, spoke.to_previous, offset);
-        let survives = (next != other) & (previous != other);
-        folded |= survives & (turns | narrow) & (area_before > 0.0);
-        let height = before.dot(offset);
-        distance_squared = distance_squared.max(height * height / (area_before + f32::MIN_POSITIVE));
+fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<Moved> {
+    let mut distances_squared = Numbers::ZERO;
+    let mut folded = 0;
+    let mut look_away = Numbers::ZERO;
+    let moved = Vectors::splat(offset);
+    let narrowest = Numbers::splat(LINE * LINE * offset.length_squared());
+    for (spokes, survive) in ring.surviving_spokes(other) {
+        let before = spokes.cross;
+        let after = spokes.moved(moved);
+        let areas_before = before.length_squared();
+        let areas_after = after.length_squared();
+        look_away = look_away | ring.look_away(before, areas_before);
+        let cosines = before.dot(after);
+        let turned = cosines.simd_le(Numbers::ZERO)
+            | (cosines * cosines).simd_lt(Numbers::splat(TURN) * areas_before * areas_after);
+        let faulty = turned | are_lines(areas_after, spokes, narrowest);
+        folded |= survive & (faulty & areas_before.simd_gt(Numbers::ZERO)).to_bitmask();
+        let heights = before.dot(moved);
+        let distances = heights * heights / (areas_before + Numbers::splat(f32::MIN_POSITIVE));
+        distances_squared = distances_squared.fast_max(distances);
     }
+    let mut distance_squared = largest(distances_squared);
     if ring.boundary {
         distance_squared = distance_squared.max(ring.border_distance_squared(offset));
     }
-    (!folded).then_some(distance_squared)
+    (folded == 0).then_some(Moved { distance_squared, is_pointed: ring.boundary || look_away.any() })
 }
 
 /// The squared distance of a triangle from the origin; of its corners' nearest edge where it has no area.
@@ -305,6 +323,14 @@ pub(crate) fn is_line(area_squared: f32, to_next: Vec3A, to_previous: Vec3A, off
     // moved unless the face is a sliver: there their dot product is the same.
     let sides = SLIVER * to_next.dot(to_previous);
     area_squared <= f32::max(narrowest * (to_next - to_previous).length_squared(), sides * sides)
+}
+
+/// [`is_line`] for faces side by side, after a way moved of which `narrowest` is the share of its square.
+#[inline(always)]
+fn are_lines(areas_squared: Numbers, spokes: &Spokes, narrowest: Numbers) -> Numbers {
+    let sides = Numbers::splat(SLIVER) * spokes.to_next.dot(spokes.to_previous);
+    let opposite = (spokes.to_next - spokes.to_previous).length_squared();
+    areas_squared.simd_le((narrowest * opposite).fast_max(sides * sides))
 }
 
 #[cfg(test)]

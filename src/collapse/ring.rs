@@ -1,11 +1,12 @@
 //! A vertex with all that surrounds it, gathered once for cost, legality and placement.
 
 use super::surface::NONE;
-use crate::quadric::{Quadric, QuadricSum};
-use glam::Vec3A;
+use crate::lanes::{LANES, Names, Numbers, Vectors, first_lanes, named_vectors};
+use crate::quadric::Quadric;
+use glam::{Vec3A, Vec4};
 
 /// The shape of one face around a vertex, as seen from it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Spoke {
     /// From the vertex to the corner after it, and to the one before it.
     pub(crate) to_next: Vec3A,
@@ -22,20 +23,69 @@ impl Spoke {
     }
 }
 
-/// A vertex is pointed if the cosine, squared, of the angle between a face's normal and the mean of all is less.
-const POINTED: f32 = 0.25;
+/// Four spokes side by side.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Spokes {
+    pub(crate) to_next: Vectors,
+    pub(crate) to_previous: Vectors,
+    pub(crate) cross: Vectors,
+}
 
-/// Names are compared this many at a time.
-const LANES: usize = 8;
+impl Spokes {
+    /// [`cross`](Self::cross) after the vertex has moved by an offset.
+    #[inline(always)]
+    pub(crate) fn moved(&self, offset: Vectors) -> Vectors {
+        self.cross + offset.cross(self.to_next - self.to_previous)
+    }
+}
+
+/// A way from the vertex to another corner, and the bits of that one's name: brought side by side together.
+type Way = Vec4;
+
+/// Four faces around a vertex: the corner after the vertex and the one before it in each, and the shapes. Where
+/// there are fewer, names are [`NONE`], and there is no area.
+#[derive(Debug, Clone, Copy, Default)]
+struct Block {
+    next: Names,
+    previous: Names,
+    spokes: Spokes,
+}
+
+impl Block {
+    /// Brings side by side what is known of faces of which there are `count` or more; of those after them the
+    /// ways are anything, and nothing comes of that.
+    #[inline(always)]
+    fn new(faces: &[[Way; 2]; LANES], count: usize) -> Self {
+        let [(to_next, next), (to_previous, previous)] =
+            [0, 1].map(|end| named_vectors(faces.each_ref().map(|ways| ways[end])));
+        let known = first_lanes(count);
+        let cross = to_next.cross(to_previous).masked(known);
+        let spokes = Spokes { to_next, to_previous, cross };
+        Self { next: next | !known, previous: previous | !known, spokes }
+    }
+
+    /// A bit for each face in which `vertex` comes after the ring's.
+    #[inline(always)]
+    fn after(&self, vertex: u32) -> u32 {
+        self.next.simd_eq(Names::splat(vertex)).to_bitmask()
+    }
+
+    /// A bit for each face in which `vertex` comes before the ring's.
+    #[inline(always)]
+    fn before(&self, vertex: u32) -> u32 {
+        self.previous.simd_eq(Names::splat(vertex)).to_bitmask()
+    }
+}
+
+/// A face looks away if the cosine, squared, of the angle between its normal and the mean of all is less.
+const POINTED: f32 = 0.25;
 
 /// The faces around a vertex, with the vertex as origin, and the quadric of their planes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Ring {
-    /// The corner after the vertex and the one before it in each face, filled up with [`NONE`] to a
-    /// multiple of [`LANES`].
-    next: Vec<u32>,
-    previous: Vec<u32>,
-    spokes: Vec<Spoke>,
+    /// To the corners after and before the vertex, as many as there are faces, and more.
+    ways: Vec<[Way; 2]>,
+    blocks: Vec<Block>,
     count: usize,
     pub(crate) vertex: u32,
     /// The vertex lies on an edge with more faces in one direction than in the other.
@@ -43,129 +93,109 @@ pub(crate) struct Ring {
     pub(crate) quadric: Quadric,
 }
 
-/// A ring being filled. Its parts are borrowed apart, so that they and the sum stay in registers
-/// from face to face.
+/// A ring being filled. What it needs is borrowed, so that it stays in registers from face to face.
 pub(crate) struct Gathering<'a> {
-    next: &'a mut [u32],
-    previous: &'a mut [u32],
-    spokes: &'a mut [Spoke],
+    ways: &'a mut [[Way; 2]],
     count: usize,
-    sum: QuadricSum,
-}
-
-/// A ring of names alone, being filled.
-pub(crate) struct Naming<'a> {
-    next: &'a mut [u32],
-    previous: &'a mut [u32],
-    count: usize,
-}
-
-impl Naming<'_> {
-    /// Adds a face. No more may be added than there is room for.
-    #[inline(always)]
-    pub(crate) fn push(&mut self, (next, previous): (u32, u32)) {
-        self.next[self.count] = next;
-        self.previous[self.count] = previous;
-        self.count += 1;
-    }
 }
 
 impl Gathering<'_> {
     /// Adds a face. No more may be added than there is room for.
     #[inline(always)]
-    pub(crate) fn push(&mut self, next: u32, previous: u32, to_next: Vec3A, to_previous: Vec3A) {
-        let cross = to_next.cross(to_previous);
-        self.sum.add_face(cross);
-        self.next[self.count] = next;
-        self.previous[self.count] = previous;
-        self.spokes[self.count] = Spoke { to_next, to_previous, cross };
+    pub(crate) fn push(&mut self, (next, previous): (u32, u32), to_next: Vec3A, to_previous: Vec3A) {
+        let ways = [(to_next, next), (to_previous, previous)];
+        self.ways[self.count] = ways.map(|(way, name)| way.extend(f32::from_bits(name)));
         self.count += 1;
+    }
+
+    /// How many were added.
+    #[inline(always)]
+    pub(crate) fn count(&self) -> usize {
+        self.count
     }
 }
 
 impl Ring {
-    /// Empties the ring for `vertex` and lets `fill` add up to `room` faces; then adds the lines
-    /// that hold borders. What `fill` answers is returned.
+    /// Empties the ring, for up to `room` faces to be added.
     #[inline(always)]
-    pub(crate) fn gather(
-        &mut self,
-        vertex: u32,
-        boundary: bool,
-        room: usize,
-        fill: impl FnOnce(&mut Gathering) -> bool,
-    ) -> bool {
-        let padded = self.make_room(room);
-        if self.spokes.len() < padded {
-            self.spokes.resize(padded, Spoke::default());
+    pub(crate) fn begin(&mut self, room: usize) -> Gathering<'_> {
+        let padded = room.next_multiple_of(LANES);
+        if self.ways.len() < padded {
+            self.ways.resize(padded, [Way::ZERO; 2]);
+            self.blocks.resize(padded / LANES, Block::default());
         }
-        let mut gathering = Gathering {
-            next: &mut self.next[..padded],
-            previous: &mut self.previous[..padded],
-            spokes: &mut self.spokes[..padded],
-            count: 0,
-            sum: QuadricSum::default(),
-        };
-        let complete = fill(&mut gathering);
-        let Gathering { count, sum, .. } = gathering;
-        self.fill_up(count);
-        self.vertex = vertex;
-        self.boundary = boundary;
-        self.quadric = sum.quadric();
-        if boundary && complete {
+        Gathering { ways: &mut self.ways, count: 0 }
+    }
+
+    /// Says that the `count` faces that were added are all those around `vertex`: works out their quadric, with
+    /// the lines that hold borders.
+    #[inline(always)]
+    pub(crate) fn complete(&mut self, vertex: u32, boundary: bool, count: usize) {
+        self.complete_names(vertex, boundary, count);
+        self.quadric = Quadric::of_faces(self.blocks().iter().map(|block| block.spokes.cross));
+        if boundary {
             self.add_border_lines();
         }
-        complete
     }
 
-    /// Empties the ring for `vertex` and lets `fill` name up to `room` faces, whose shapes are not asked for:
-    /// enough for the link condition at the end of an edge that stays where it is.
+    /// The same without a quadric: enough for the link condition at the end of an edge that stays where it is,
+    /// to which the ways may be anything.
     #[inline(always)]
-    pub(crate) fn gather_names(
-        &mut self,
-        vertex: u32,
-        boundary: bool,
-        room: usize,
-        fill: impl FnOnce(&mut Naming),
-    ) {
-        let padded = self.make_room(room);
-        let mut naming =
-            Naming { next: &mut self.next[..padded], previous: &mut self.previous[..padded], count: 0 };
-        fill(&mut naming);
-        let count = naming.count;
-        self.fill_up(count);
+    pub(crate) fn complete_names(&mut self, vertex: u32, boundary: bool, count: usize) {
+        self.count = count;
         self.vertex = vertex;
         self.boundary = boundary;
-    }
-
-    /// Sees to it that so many faces can be named, and the lanes filled up: how many that is.
-    #[inline(always)]
-    fn make_room(&mut self, room: usize) -> usize {
-        let padded = room.next_multiple_of(LANES);
-        if self.next.len() < padded {
-            self.next.resize(padded, NONE);
-            self.previous.resize(padded, NONE);
+        let (ways, _) = self.ways.as_chunks::<LANES>();
+        for ((block, ways), first) in self.blocks.iter_mut().zip(ways).zip((0..count).step_by(LANES)) {
+            *block = Block::new(ways, count - first);
         }
-        padded
     }
 
-    /// Says that `count` faces are named, and fills up the lanes after them.
+    /// How many faces there are.
     #[inline(always)]
-    fn fill_up(&mut self, count: usize) {
-        self.count = count;
-        let rest = count..count.next_multiple_of(LANES);
-        self.next[rest.clone()].fill(NONE);
-        self.previous[rest].fill(NONE);
+    pub(crate) fn count(&self) -> usize {
+        self.count
     }
 
     /// The shapes of the faces.
+    pub(crate) fn spokes(&self) -> impl Iterator<Item = Spoke> {
+        (0..self.count).map(|face| self.spoke(face))
+    }
+
+    /// The shape of a face, by its place in the ring.
     #[inline(always)]
-    pub(crate) fn spokes(&self) -> &[Spoke] {
-        &self.spokes[..self.count]
+    pub(crate) fn spoke(&self, face: usize) -> Spoke {
+        let [to_next, to_previous] = self.ways[face].map(Vec3A::from_vec4);
+        Spoke { to_next, to_previous, cross: to_next.cross(to_previous) }
+    }
+
+    /// The corner after the vertex in a face, and the one before it.
+    #[inline(always)]
+    pub(crate) fn name(&self, face: usize) -> (u32, u32) {
+        let [next, previous] = self.ways[face].map(|way| way.w.to_bits());
+        (next, previous)
+    }
+
+    /// Both, face by face.
+    #[inline(always)]
+    pub(crate) fn names(&self) -> impl Iterator<Item = (u32, u32)> {
+        (0..self.count).map(|face| self.name(face))
+    }
+
+    #[inline(always)]
+    fn blocks(&self) -> &[Block] {
+        &self.blocks[..self.count.div_ceil(LANES)]
+    }
+
+    /// The shapes of the faces, side by side, with a bit for each face that survives a collapse with `other`.
+    #[inline(always)]
+    pub(crate) fn surviving_spokes(&self, other: u32) -> impl Iterator<Item = (&Spokes, u32)> {
+        self.blocks().iter().map(move |block| (&block.spokes, !(block.after(other) | block.before(other))))
     }
 
     /// The mean of the faces' normals, weighted by their areas, of any length.
     pub(crate) fn mean_normal(&self) -> Vec3A {
-        self.spokes().iter().map(|spoke| spoke.cross).sum()
+        self.spokes().map(|spoke| spoke.cross).sum()
     }
 
     /// Each face that survives a collapse with `other`: its normal, twice its area long, before and after
@@ -177,18 +207,12 @@ impl Ring {
             .map(move |(_, spoke)| (spoke.cross, spoke.moved(offset)))
     }
 
-    /// Whether the vertex is a tip, of a border or of a surface some of whose faces hardly look where the vertex
-    /// does: when it goes back, the distance from its faces' planes says little.
+    /// Four of its faces hardly look where the vertex does, given their vector areas, and the squares of these.
     #[inline(always)]
-    pub(crate) fn is_pointed(&self) -> bool {
-        let mean = self.mean_normal();
-        let least = POINTED * mean.length_squared();
-        let mut pointed = self.boundary;
-        for spoke in self.spokes() {
-            let cosine = spoke.cross.dot(mean);
-            pointed |= cosine.max(0.0).powi(2) < least * spoke.cross.length_squared();
-        }
-        pointed
+    pub(crate) fn look_away(&self, crosses: Vectors, areas_squared: Numbers) -> Numbers {
+        let mean = self.quadric.sweep();
+        let cosines = crosses.dot(Vectors::splat(mean)).fast_max(Numbers::ZERO);
+        (cosines * cosines).simd_lt(Numbers::splat(POINTED * mean.length_squared()) * areas_squared)
     }
 
     /// The ways to the other two corners of each face that survives a collapse with `other`.
@@ -199,37 +223,18 @@ impl Ring {
             .map(|(_, spoke)| [spoke.to_next, spoke.to_previous])
     }
 
-    /// The corner after the vertex in each face.
-    #[inline(always)]
-    pub(crate) fn next(&self) -> &[u32] {
-        &self.next[..self.count]
-    }
-
-    /// The corner before the vertex in each face.
-    #[inline(always)]
-    pub(crate) fn previous(&self) -> &[u32] {
-        &self.previous[..self.count]
-    }
-
-    /// Both, face by face.
-    #[inline(always)]
-    pub(crate) fn names(&self) -> impl Iterator<Item = (u32, u32)> {
-        self.next().iter().copied().zip(self.previous().iter().copied())
-    }
-
     /// In how many faces `vertex` comes after the ring's, and in how many before.
     #[inline(always)]
     pub(crate) fn occurrences(&self, vertex: u32) -> (u32, u32) {
-        let padded = self.count.next_multiple_of(LANES);
-        (count_equal(&self.next[..padded], vertex), count_equal(&self.previous[..padded], vertex))
+        self.blocks().iter().fold((0, 0), |(after, before), block| {
+            (after + block.after(vertex).count_ones(), before + block.before(vertex).count_ones())
+        })
     }
 
     /// The first face in which `vertex` comes before the ring's.
     #[inline(always)]
     pub(crate) fn face_before(&self, vertex: u32) -> Option<usize> {
-        let padded = self.count.next_multiple_of(LANES);
-        let (groups, _) = self.previous[..padded].as_chunks::<LANES>();
-        let masks = groups.iter().map(|group| mask_equal(group, vertex));
+        let masks = self.blocks().iter().map(|block| block.before(vertex));
         let found = masks.enumerate().find(|(_, mask)| *mask != 0);
         found.map(|(index, mask)| LANES * index + mask.trailing_zeros() as usize)
     }
@@ -238,15 +243,12 @@ impl Ring {
     /// with whether `vertex` comes after the ring's there.
     #[inline(always)]
     pub(crate) fn visit_faces_with(&self, vertex: u32, mut see: impl FnMut(usize, bool)) {
-        let padded = self.count.next_multiple_of(LANES);
-        let (next, _) = self.next[..padded].as_chunks::<LANES>();
-        let (previous, _) = self.previous[..padded].as_chunks::<LANES>();
-        for (group, (next, previous)) in next.iter().zip(previous).enumerate() {
-            let after = mask_equal(next, vertex);
-            let mut either = after | mask_equal(previous, vertex);
+        for (index, block) in self.blocks().iter().enumerate() {
+            let after = block.after(vertex);
+            let mut either = after | block.before(vertex);
             while either != 0 {
                 let lane = either.trailing_zeros();
-                see(LANES * group + lane as usize, after >> lane & 1 == 1);
+                see(LANES * index + lane as usize, after >> lane & 1 == 1);
                 either &= either - 1;
             }
         }
@@ -255,13 +257,33 @@ impl Ring {
     /// How many vertices come after the vertex of this ring and of `other`.
     #[inline(always)]
     pub(crate) fn common_next(&self, other: &Self) -> u32 {
-        let padded = self.count.next_multiple_of(LANES);
-        other.next().iter().map(|&vertex| count_equal(&self.next[..padded], vertex)).sum()
+        let mut common = Names::ZERO;
+        for theirs in other.blocks() {
+            let [a, b, c, d] = theirs.next.to_array().map(Names::splat);
+            for own in self.blocks() {
+                // What is equal is all ones, which is one less than nothing.
+                let pairs =
+                    (own.next.simd_eq(a) + own.next.simd_eq(b)) + (own.next.simd_eq(c) + own.next.simd_eq(d));
+                common -= pairs;
+            }
+        }
+        let of_lanes: u32 = common.to_array().into_iter().sum();
+        // The lanes that name nothing are equal too.
+        let empty = |ring: &Self| (LANES * ring.blocks().len() - ring.count) as u32;
+        of_lanes - empty(self) * empty(other)
+    }
+
+    /// Whether a face has these other corners, in either order.
+    #[inline(always)]
+    pub(crate) fn has_face(&self, [a, b]: [u32; 2]) -> bool {
+        self.blocks()
+            .iter()
+            .any(|block| block.after(a) & block.before(b) | block.after(b) & block.before(a) != 0)
     }
 
     /// Calls `see` with every edge to the vertex that has not two faces of one orientation (borders,
     /// non-manifold edges, and edges where the orientation changes), and with each of its faces.
-    fn visit_borders(&self, mut see: impl FnMut(Vec3A, &Spoke)) {
+    fn visit_borders(&self, mut see: impl FnMut(Vec3A, Spoke)) {
         for ((next, previous), spoke) in self.names().zip(self.spokes()) {
             for (neighbour, edge) in [(next, spoke.to_next), (previous, spoke.to_previous)] {
                 if self.occurrences(neighbour) != (1, 1) {
@@ -299,18 +321,19 @@ impl Ring {
     #[inline(always)]
     pub(crate) fn cheapest_neighbour(&self, eligible: impl Fn(u32) -> bool) -> Option<(f32, u32)> {
         let mut best = u64::MAX;
-        let mut consider = |neighbour: u32, edge: Vec3A| {
-            let key = key(self.quadric.at(edge), neighbour);
-            if eligible(neighbour) {
-                best = best.min(key);
+        let mut consider = |names: Names, ways: Vectors| {
+            // A lane that names nothing costs as much as nothing does.
+            let costs = self.quadric.at_each(ways).to_bits() | names.simd_eq(Names::splat(NONE));
+            for (neighbour, cost) in names.to_array().into_iter().zip(costs.to_array()) {
+                if eligible(neighbour) {
+                    best = best.min(u64::from(cost) << 32 | u64::from(neighbour));
+                }
             }
         };
-        for (&next, spoke) in self.next().iter().zip(self.spokes()) {
-            consider(next, spoke.to_next);
-        }
-        if self.boundary {
-            for (&previous, spoke) in self.previous().iter().zip(self.spokes()) {
-                consider(previous, spoke.to_previous);
+        for block in self.blocks() {
+            consider(block.next, block.spokes.to_next);
+            if self.boundary {
+                consider(block.previous, block.spokes.to_previous);
             }
         }
         (best != u64::MAX).then(|| (f32::from_bits((best >> 32) as u32), best as u32))
@@ -338,7 +361,7 @@ impl Ring {
     /// Each neighbour once, in ascending order, into `neighbours`.
     pub(crate) fn neighbours(&self, neighbours: &mut Vec<u32>) {
         neighbours.clear();
-        neighbours.extend(self.next().iter().chain(self.previous()));
+        neighbours.extend(self.names().flat_map(|(next, previous)| [next, previous]));
         neighbours.sort_unstable();
         neighbours.dedup();
     }
@@ -349,18 +372,4 @@ impl Ring {
 #[inline(always)]
 pub(super) fn key(cost: f32, name: u32) -> u64 {
     u64::from(cost.to_bits()) << 32 | u64::from(name)
-}
-
-/// How often `name` is among `names`, whose count is a multiple of [`LANES`].
-#[inline(always)]
-fn count_equal(names: &[u32], name: u32) -> u32 {
-    let (groups, _) = names.as_chunks::<LANES>();
-    groups.iter().map(|group| group.iter().map(|&other| u32::from(other == name)).sum::<u32>()).sum()
-}
-
-/// A bit for each of `names`, which is set where it is `name`.
-#[inline(always)]
-fn mask_equal(names: &[u32; LANES], name: u32) -> u32 {
-    let bits = std::array::from_fn::<u32, LANES, _>(|lane| 1 << lane);
-    names.iter().zip(bits).map(|(&other, bit)| if other == name { bit } else { 0 }).sum()
 }

@@ -27,16 +27,15 @@ fn ring(mesh: &Mesh, vertex: u32, boundary: bool) -> Ring {
     let position = |vertex: u32| Vec3A::from(mesh.positions()[vertex as usize]);
     let around = || mesh.triangles().iter().filter(|triangle| triangle.contains(&vertex));
     let mut ring = Ring::default();
-    let complete = ring.gather(vertex, boundary, around().count(), |gathering| {
-        for triangle in around() {
-            let corner = triangle.iter().position(|&corner| corner == vertex).unwrap();
-            let (next, previous) = (triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]);
-            let origin = position(vertex);
-            gathering.push(next, previous, position(next) - origin, position(previous) - origin);
-        }
-        true
-    });
-    assert!(complete);
+    let mut gathering = ring.begin(around().count());
+    for triangle in around() {
+        let corner = triangle.iter().position(|&corner| corner == vertex).unwrap();
+        let (next, previous) = (triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]);
+        let origin = position(vertex);
+        gathering.push((next, previous), position(next) - origin, position(previous) - origin);
+    }
+    let count = gathering.count();
+    ring.complete(vertex, boundary, count);
     ring
 }
 
@@ -181,8 +180,8 @@ proptest! {
         } else if least_cosine < 0.099 {
             prop_assert!(found.is_none());
         }
-        if let Some(squared) = found {
-            prop_assert!((f64::from(squared).sqrt() - distance).abs() < 1e-4);
+        if let Some(moved) = found {
+            prop_assert!((f64::from(moved.distance_squared).sqrt() - distance).abs() < 1e-4);
         }
     }
 }
@@ -204,10 +203,8 @@ fn a_sliver_does_not_become_a_line() {
     let next = Vec3A::new(-0.740_793_94, 24.327_171, 0.740_794_1);
     let previous = Vec3A::new(-0.740_793_94, 24.355_652, 0.740_794_1);
     let mut ring = Ring::default();
-    ring.gather(0, false, 1, |gathering| {
-        gathering.push(1, 2, next - corner, previous - corner);
-        true
-    });
+    ring.begin(1).push((1, 2), next - corner, previous - corner);
+    ring.complete(0, false, 1);
     let onto_the_line = Vec3A::new(next.x, corner.y, next.z) - corner;
     assert_eq!(fold(&ring, 3, onto_the_line), None);
     assert!(fold(&ring, 3, 0.5 * onto_the_line).is_some());

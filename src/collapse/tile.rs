@@ -7,7 +7,7 @@
 
 use super::half_edge::{self, Terms};
 use super::ring::Ring;
-use super::surface::{Face, NONE, Rings, flag, is_alive, neighbours};
+use super::surface::{Face, NONE, Rings, Spans, flag, is_alive, neighbours};
 use super::wedges::Wedges;
 use super::{Collapse, Counts, Edge, HalfEdge, Rules};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
@@ -48,8 +48,7 @@ pub(crate) struct Columns<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<'a> {
     pub(crate) faces: &'a [Face],
-    /// The vertices of blocks of them; empty where all may be anywhere.
-    pub(crate) spans: &'a [Range<u32>],
+    pub(crate) spans: &'a Spans,
     pub(crate) terms: Terms<'a>,
 }
 
@@ -170,20 +169,20 @@ impl<'a> Tile<'a> {
             return false;
         };
         let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
-        ring.gather(vertex, boundary, corners.len(), |ring| {
-            for &corner in corners {
-                if !is_alive(&self.shared.faces[(corner >> 2) as usize]) {
-                    continue;
-                }
-                let (next, previous) = neighbours(self.shared.faces, corner);
-                let (Some(to_next), Some(to_previous)) = (self.position(next), self.position(previous))
-                else {
-                    return false;
-                };
-                ring.push(next, previous, to_next - origin, to_previous - origin);
+        let mut gathering = ring.begin(corners.len());
+        for &corner in corners {
+            if !is_alive(&self.shared.faces[(corner >> 2) as usize]) {
+                continue;
             }
-            true
-        })
+            let names = neighbours(self.shared.faces, corner);
+            let (Some(next), Some(previous)) = (self.position(names.0), self.position(names.1)) else {
+                return false;
+            };
+            gathering.push(names, next - origin, previous - origin);
+        }
+        let count = gathering.count();
+        ring.complete(vertex, boundary, count);
+        true
     }
 
     /// The neighbour to which `scratch.source`, which has been gathered of these `corners`, goes most cheaply if
@@ -233,18 +232,19 @@ impl<'a> Tile<'a> {
             return false;
         }
         let boundary = self.flags(vertex) & flag::BOUNDARY != 0;
-        ring.gather_names(vertex, boundary, room, |names| {
-            let mut member = vertex;
-            while member != NONE {
-                for &corner in self.corners(member) {
-                    if is_alive(&self.shared.faces[(corner >> 2) as usize]) {
-                        names.push(neighbours(self.shared.faces, corner));
-                    }
+        let mut gathering = ring.begin(room);
+        let mut member = vertex;
+        while member != NONE {
+            for &corner in self.corners(member) {
+                if is_alive(&self.shared.faces[(corner >> 2) as usize]) {
+                    gathering.push(neighbours(self.shared.faces, corner), Vec3A::ZERO, Vec3A::ZERO);
                 }
-                member = self.absorbed(member);
             }
-        });
-        !has_absorbed || ring.next().len() + joining <= MAX_ABSORBED
+            member = self.absorbed(member);
+        }
+        let count = gathering.count();
+        ring.complete_names(vertex, boundary, count);
+        !has_absorbed || ring.count() + joining <= MAX_ABSORBED
     }
 
     /// Collapses `scratch.source`, which has been gathered and is unused, into `target`, if the
@@ -254,7 +254,7 @@ impl<'a> Tile<'a> {
         let source = scratch.source.vertex;
         let (from, into) = ((source - self.first) as usize, (target - self.first) as usize);
         let gathered = if rules.half_edge {
-            self.gather_names(target, scratch.source.next().len(), &mut scratch.target)
+            self.gather_names(target, scratch.source.count(), &mut scratch.target)
         } else {
             self.columns.flags[into] & flag::USED == 0
                 && self.gather(target, self.corners(target), &mut scratch.target)

@@ -159,12 +159,12 @@ impl RingWedges {
     /// Calls `see` with each edge of the ring at which wedges meet: on one of its sides the vertex, or the
     /// neighbour, has another wedge than on the other.
     pub(crate) fn visit_seams(&self, ring: &Ring, mut see: impl FnMut(Vec3A)) {
-        for (index, &neighbour) in ring.next().iter().enumerate() {
+        for (index, (neighbour, _)) in ring.names().enumerate() {
             let is_seam = ring.face_before(neighbour).is_some_and(|other| {
                 (self.own[other], self.previous[other]) != (self.own[index], self.next[index])
             });
             if is_seam {
-                see(ring.spokes()[index].to_next);
+                see(ring.spoke(index).to_next);
             }
         }
     }

@@ -41,9 +41,10 @@ const AIM: f32 = 0.8;
 const SAMPLES: usize = 4096;
 const MANY_SAMPLES: usize = 16384;
 const SMALL: f32 = 0.1;
-/// Where vertices stay a rough threshold does: of few vertices one in so many is looked at, but not fewer than
-/// these.
-const SPARSE: usize = 24;
+/// Of fewer vertices one in so many is looked at, and one in so many where they stay, as a rough threshold does
+/// there, but not fewer than these.
+const SPARSE: usize = 8;
+const SPARSE_HALF_EDGE: usize = 24;
 const FEW_SAMPLES: usize = 512;
 /// The most by which a threshold rises after a productive pass, and the share of the vertices that
 /// such a pass removes. On scans costs rise by 4 to 8 a pass.
@@ -146,12 +147,10 @@ impl Threshold {
 fn sample(surface: &mut Surface, many: bool, rules: &Rules, workers: &Workers) -> Vec<(u32, u32)> {
     let vertices = surface.points.len();
     let most = if many { MANY_SAMPLES } else { SAMPLES };
-    let count = if rules.half_edge {
-        (vertices / SPARSE).clamp(FEW_SAMPLES.min(vertices), most)
-    } else {
-        vertices.min(most)
-    };
+    let sparse = if rules.half_edge { SPARSE_HALF_EDGE } else { SPARSE };
+    let count = (vertices / sparse).clamp(FEW_SAMPLES.min(vertices), most);
     let rings = surface.sampled_rings(count, workers);
+    let count = rings.count();
     let tile = &surface.whole();
     let blocks: Vec<_> = (0..count).step_by(1024).map(|first| first..(first + 1024).min(count)).collect();
     let of_blocks = workers.map(blocks, |block| {
@@ -254,7 +253,7 @@ fn budgets(tiles: &[Tile], samples: &[(u32, u32)], threshold: u32, goal: Goal, e
 
 /// Collapses what is below the threshold in a tile, in the order of its vertices. This is where the time goes:
 /// compiled once more for processors with wider instructions, which round the same.
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2"))]
+#[multiversion(targets("x86_64+avx2+bmi1+bmi2+popcnt"))]
 fn sweep(tile: &mut Tile, threshold: u32, goal: Goal, budget: usize, rules: &Rules) -> Counts {
     let mut scratch = Scratch::default();
     let mut removed = Counts::default();

@@ -3,7 +3,8 @@
 use glam::Vec3A;
 
 use super::fan::Fan;
-use crate::quadric::QuadricSum;
+use crate::lanes::{LANES, Vectors};
+use crate::quadric::Quadric;
 
 /// What a half-edge collapse costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -129,9 +130,7 @@ fn melax(fan: &Fan, bends: &mut Bends, costs: &mut Vec<f32>) {
 }
 
 fn quadric(fan: &Fan, costs: &mut Vec<f32>) {
-    let mut sum = QuadricSum::default();
-    fan.crosses.iter().for_each(|&cross| sum.add_face(cross));
-    let mut quadric = sum.quadric();
+    let mut quadric = Quadric::of_faces(fan.crosses.chunks(LANES).map(Vectors::filled_up));
     if !fan.closed {
         quadric.add_border(fan.spokes[0]);
         quadric.add_border(fan.spokes[fan.faces()]);

@@ -1,6 +1,6 @@
 //! What is known of vertices by their faces: borders, seams, and who has none.
 
-use super::rings::{spans, split, touching};
+use super::rings::{Spans, split};
 use super::{NONE, Surface, corners, flag, hash};
 use crate::workers::Workers;
 use std::sync::atomic::Ordering::Relaxed;
@@ -14,7 +14,7 @@ impl Surface {
         let (faces, wedges) = (&faces[..], &wedges[..]);
         let count = flags.len();
         let ranges = workers.count().min(count.max(1));
-        let spans = if ranges > 1 { spans(faces, workers) } else { Vec::new() };
+        let spans = if ranges > 1 { Spans::new(faces, workers) } else { Spans::default() };
         let bound = |range: usize| range * count / ranges;
         let pieces = split(flags, (1..ranges).map(bound)).into_iter().enumerate().collect();
         let unreferenced = workers.map(pieces, |(range, flags): (usize, &mut [u8])| {
@@ -23,7 +23,7 @@ impl Surface {
             let mut balances = vec![0u32; flags.len()];
             let mut wedge_of = vec![NONE; if wedges.is_empty() { 0 } else { flags.len() }];
             flags.iter_mut().for_each(|flags| *flags |= flag::DEAD);
-            for (base, block) in touching(faces, &spans, &vertices) {
+            for (base, block, _) in spans.touching(faces, &vertices) {
                 for (index, face) in block.iter().enumerate() {
                     let corners = corners(face);
                     let [a, b, c] = corners.map(hash);

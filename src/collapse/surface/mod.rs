@@ -22,9 +22,8 @@ use crate::mesh::{Attributes, Mesh};
 use crate::workers::Workers;
 use glam::{Vec3, Vec4};
 pub(crate) use remains::Remains;
-pub(crate) use rings::{Rings, SampledRings, are_coherent};
+pub(crate) use rings::{Rings, SampledRings, Spans, are_coherent};
 use std::borrow::Cow;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Three corners. Atomic only so that tiles that work side by side may read the faces between
@@ -132,7 +131,7 @@ pub(crate) struct Surface {
     pub(crate) attribute_errors: Vec<f32>,
     cross_seams: bool,
     /// Of blocks of faces, while tiles look at them.
-    spans: Vec<Range<u32>>,
+    spans: Spans,
     /// Of all vertices, while the surface is fitted to the input.
     rings: Rings,
     /// Positions are multiplied by this power of two, and divided by it in the end.
@@ -215,7 +214,7 @@ impl Surface {
             attribute_errors: if rows.is_some() { vec![0.0; count] } else { Vec::new() },
             rows,
             cross_seams: setting.cross_seams,
-            spans: Vec::new(),
+            spans: Spans::default(),
             rings: Rings::default(),
             scale,
         }
@@ -234,7 +233,7 @@ impl Surface {
 
     /// Finds the rings of all vertices, which [`ring`](Self::ring) needs: of the faces as they are now.
     pub(crate) fn find_rings(&mut self) {
-        self.rings = Rings::new(&self.faces, &[], 0..self.points.len() as u32);
+        self.rings = Rings::new(&self.faces, &Spans::default(), 0..self.points.len() as u32);
     }
 
     /// Gives the rings' memory back.
@@ -298,7 +297,7 @@ impl Surface {
 
     /// The whole surface as one tile, without rings.
     pub(crate) fn whole(&mut self) -> Tile<'_> {
-        self.spans.clear();
+        self.spans = Spans::default();
         self.cut(std::iter::empty()).remove(0)
     }
 
@@ -306,7 +305,7 @@ impl Surface {
     pub(crate) fn tiles(&mut self, cuts: impl Iterator<Item = usize>, workers: &Workers) -> Vec<Tile<'_>> {
         let mut cuts = cuts.peekable();
         // A single tile has all faces.
-        self.spans = if cuts.peek().is_some() { rings::spans(&self.faces, workers) } else { Vec::new() };
+        self.spans = if cuts.peek().is_some() { Spans::new(&self.faces, workers) } else { Spans::default() };
         self.cut(cuts)
     }
 

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Faces in a block of which the least and the largest vertex are noted.
 const FACE_BLOCK: usize = 256;
 
-/// Blocks that one thread looks at in a go.
+/// Blocks in a group, which one thread looks at in a go.
 const BLOCKS: usize = 128;
 
 /// The faces around some vertices, as corners `face << 2 | corner`, in compressed rows. Within a row, corners
@@ -26,23 +26,27 @@ pub(crate) struct Rings {
 
 impl Rings {
     /// The rings of the vertices of a range, in time linear in the faces of the blocks that have one of them
-    /// between their least and largest vertex: of all where no `spans` are given.
+    /// between their least and largest vertex: of all where no spans are known.
     ///
     /// Faces that have none of these vertices, and have none later, may change meanwhile.
-    pub(crate) fn new(faces: &[Face], spans: &[Range<u32>], vertices: Range<u32>) -> Self {
+    pub(crate) fn new(faces: &[Face], spans: &Spans, vertices: Range<u32>) -> Self {
         let (first, own) = (vertices.start, vertices.len());
         let mut near = Vec::new();
-        for (base, block) in touching(faces, spans, &vertices) {
-            let mut count = near.len();
-            near.resize(count + block.len(), 0);
+        let mut of_block = [0; FACE_BLOCK];
+        for (base, block, is_within) in spans.touching(faces, &vertices) {
+            if is_within {
+                near.extend(base as u32..(base + block.len()) as u32);
+                continue;
+            }
+            let mut count = 0;
             // Written always and counted if near: a branch would miss.
             for (face, index) in block.iter().zip(base as u32..) {
-                near[count] = index;
+                of_block[count] = index;
                 let is_own = |corner: u32| (corner.wrapping_sub(first) as usize) < own;
                 let [a, b, c] = corners(face).map(is_own);
                 count += usize::from(a | b | c);
             }
-            near.truncate(count);
+            near.extend_from_slice(&of_block[..count]);
         }
         let mut offsets = vec![0u32; own + 1];
         for &index in &near {
@@ -72,25 +76,46 @@ impl Rings {
     }
 }
 
-/// The blocks of faces that may have one of `vertices`, and the first face of each.
-pub(super) fn touching<'a>(
-    faces: &'a [Face],
-    spans: &'a [Range<u32>],
-    vertices: &'a Range<u32>,
-) -> impl Iterator<Item = (usize, &'a [Face])> {
-    let touches = |block: usize| {
-        spans.get(block).is_none_or(|span| span.start < vertices.end && vertices.start < span.end)
-    };
-    let blocks = faces.chunks(FACE_BLOCK).enumerate();
-    blocks.filter(move |&(block, _)| touches(block)).map(|(block, faces)| (block * FACE_BLOCK, faces))
+/// The least and the largest vertex of each block of faces, as a range, and of each group of blocks: a tile that
+/// looked at every block would make the time of all tiles grow as the square of the surface.
+#[derive(Debug, Default)]
+pub(crate) struct Spans {
+    groups: Vec<Range<u32>>,
+    blocks: Vec<Range<u32>>,
 }
 
-/// The least and the largest vertex of each block of faces, as a range.
-pub(super) fn spans(faces: &[Face], workers: &Workers) -> Vec<Range<u32>> {
-    let of_blocks = |faces: &[Face]| -> Vec<Range<u32>> {
-        faces.chunks(FACE_BLOCK).map(|block| span(block.iter().map(corners))).collect()
-    };
-    workers.map(faces.chunks(BLOCKS * FACE_BLOCK).collect(), of_blocks).concat()
+impl Spans {
+    pub(super) fn new(faces: &[Face], workers: &Workers) -> Self {
+        let of_group = |faces: &[Face]| -> Vec<Range<u32>> {
+            faces.chunks(FACE_BLOCK).map(|block| span(block.iter().map(corners))).collect()
+        };
+        let blocks = workers.map(faces.chunks(BLOCKS * FACE_BLOCK).collect(), of_group).concat();
+        let hull = |spans: &[Range<u32>]| {
+            spans.iter().fold(NONE..0, |hull, span| hull.start.min(span.start)..hull.end.max(span.end))
+        };
+        Self { groups: blocks.chunks(BLOCKS).map(hull).collect(), blocks }
+    }
+
+    /// The blocks of `faces` that may have one of `vertices`, as which face is their first, and whether they have
+    /// no others. No span is known of a surface that was not worth it: any of its blocks may have any vertex.
+    pub(super) fn touching<'a>(
+        &'a self,
+        faces: &'a [Face],
+        vertices: &'a Range<u32>,
+    ) -> impl Iterator<Item = (usize, &'a [Face], bool)> {
+        let touches = |span: &Range<u32>| span.start < vertices.end && vertices.start < span.end;
+        let is_within = |span: &Range<u32>| vertices.start <= span.start && span.end <= vertices.end;
+        let group_length = BLOCKS * FACE_BLOCK;
+        let groups = faces.chunks(group_length).enumerate();
+        let near = groups.filter(move |&(group, _)| self.groups.get(group).is_none_or(touches));
+        near.flat_map(move |(group, faces)| {
+            faces.chunks(FACE_BLOCK).enumerate().filter_map(move |(block, faces)| {
+                let span = self.blocks.get(group * BLOCKS + block);
+                let first = group * group_length + block * FACE_BLOCK;
+                span.is_none_or(touches).then(|| (first, faces, span.is_none_or(is_within)))
+            })
+        })
+    }
 }
 
 /// Whether triangles that follow each other have vertices near each other, so that few blocks of them have
@@ -117,25 +142,31 @@ fn span(faces: impl Iterator<Item = [u32; 3]>) -> Range<u32> {
 
 /// The corners around vertices strided over all of them, row by row: see [`Rings`].
 pub(crate) struct SampledRings {
-    vertices: usize,
-    count: usize,
+    /// Samples a vertex, in units of 2⁻³².
+    density: u64,
     offsets: Vec<u32>,
     corners: Vec<u32>,
 }
 
 impl SampledRings {
-    /// Those of `count` of the `vertices`, in time linear in the faces.
+    /// Those of `count` of the `vertices`, or a few less, in time linear in the faces.
     pub(super) fn new(faces: &[Face], vertices: usize, count: usize, workers: &Workers) -> Self {
-        let mut chosen = vec![0u64; vertices.div_ceil(64)];
-        let mut rings = Self { vertices, count, offsets: vec![0; count + 1], corners: Vec::new() };
-        (0..count).map(|index| rings.vertex(index)).for_each(|v| chosen[v as usize >> 6] |= 1 << (v & 63));
+        let density = ((count as u64) << 32) / (vertices as u64).max(1);
+        let mut rings = Self { density, offsets: Vec::new(), corners: Vec::new() };
+        let samples = vertices.checked_sub(1).map_or(0, |last| rings.index(last as u32) + 1);
+        rings.offsets = vec![0; samples + 1];
         let length = BLOCKS * FACE_BLOCK;
         let found = workers.map(faces.chunks(length).enumerate().collect(), |(chunk, faces)| {
             let mut found = Vec::new();
-            for (index, face) in faces.iter().enumerate() {
-                for (corner, vertex) in corners(face).into_iter().enumerate() {
-                    if chosen[vertex as usize >> 6] >> (vertex & 63) & 1 != 0 {
-                        found.push((rings.index(vertex), ((chunk * length + index) << 2 | corner) as u32));
+            for (face, index) in faces.iter().zip((chunk * length) as u32..) {
+                let corners = corners(face);
+                let [a, b, c] = corners.map(|vertex| rings.is_sample(vertex));
+                if !(a | b | c) {
+                    continue;
+                }
+                for (corner, vertex) in (0..).zip(corners) {
+                    if rings.is_sample(vertex) {
+                        found.push((rings.index(vertex), index << 2 | corner));
                     }
                 }
             }
@@ -153,14 +184,25 @@ impl SampledRings {
         rings
     }
 
-    /// The vertex of a sample.
-    pub(crate) fn vertex(&self, index: usize) -> u32 {
-        (index * self.vertices / self.count) as u32
+    /// How many samples there are.
+    pub(crate) fn count(&self) -> usize {
+        self.offsets.len() - 1
     }
 
-    /// The sample of a vertex that is one.
+    /// The vertex of a sample: the first to which its index belongs.
+    pub(crate) fn vertex(&self, index: usize) -> u32 {
+        ((index as u64) << 32).div_ceil(self.density) as u32
+    }
+
+    /// The sample that is at a vertex, or the last before it.
     fn index(&self, vertex: u32) -> usize {
-        (vertex as usize * self.count).div_ceil(self.vertices)
+        (u64::from(vertex) * self.density >> 32) as usize
+    }
+
+    /// Whether a vertex is the first to which an index belongs.
+    #[inline(always)]
+    fn is_sample(&self, vertex: u32) -> bool {
+        u64::from((u64::from(vertex) * self.density) as u32) < self.density
     }
 
     /// The corners around the vertex of a sample.

@@ -251,13 +251,13 @@ impl<'a> Finish<'a> {
         }
         let boundary = is_open(&self.surface.faces, corners.iter().copied());
         let origin = self.position(vertex);
-        ring.gather(vertex, boundary, corners.len(), |ring| {
-            for &corner in &*corners {
-                let (next, previous) = neighbours(&self.surface.faces, corner);
-                ring.push(next, previous, self.position(next) - origin, self.position(previous) - origin);
-            }
-            true
-        });
+        let mut gathering = ring.begin(corners.len());
+        for &corner in &*corners {
+            let names = neighbours(&self.surface.faces, corner);
+            gathering.push(names, self.position(names.0) - origin, self.position(names.1) - origin);
+        }
+        let count = gathering.count();
+        ring.complete(vertex, boundary, count);
     }
 
     /// Gathers the ring of `vertex` as the source of `scratch`, if it is not there as it is.
@@ -283,7 +283,7 @@ impl<'a> Finish<'a> {
         let ring = &scratch.source;
         self.flags_of(ring);
         self.quadrics[vertex as usize] = ring.quadric;
-        let alive = !ring.next().is_empty();
+        let alive = ring.count() > 0;
         self.scratch = scratch;
         alive
     }

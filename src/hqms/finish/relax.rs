@@ -189,7 +189,7 @@ pub(super) fn coincident<'r>(
         let joined = of_source != (0, 0) && of_target != (0, 0);
         joined && (of_source.0 + of_target.0 > 1 || of_source.1 + of_target.1 > 1)
     };
-    let around = source.next().iter().chain(source.previous());
-    let manifold = around.copied().all(|vertex| vertex == target.vertex || !overfull(vertex));
+    let mut around = source.names().flat_map(|(next, previous)| [next, previous]);
+    let manifold = around.all(|vertex| vertex == target.vertex || !overfull(vertex));
     manifold.then_some(doomed)
 }

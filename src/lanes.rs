@@ -1,0 +1,132 @@
+//! Four faces at a time: numbers, names, and vectors coordinate by coordinate, side by side.
+//!
+//! What is worked out for each face around a vertex is the same for all of them, and a vector instruction does
+//! it for four at once, where one vector at a time fills three of four lanes and spends half its instructions
+//! on moving coordinates. All lanes round as single numbers do, so that nothing depends on the processor; sums
+//! over lanes have one order. Eight at a time would not do more: most rings have five to seven faces, and the
+//! sums of a quadric then no longer fit the registers.
+
+use glam::{Vec3A, Vec4};
+use std::array::from_fn;
+use std::ops::{Add, Mul, Sub};
+
+/// How many faces there are side by side.
+pub(crate) const LANES: usize = 4;
+
+/// A number for each of four faces; or what a comparison of two makes: for each whether it holds.
+pub(crate) type Numbers = wide::f32x4;
+
+/// The name of a vertex for each of four faces.
+pub(crate) type Names = wide::u32x4;
+
+/// A vector for each of four faces.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Vectors {
+    x: Numbers,
+    y: Numbers,
+    z: Numbers,
+}
+
+/// All ones in the first `count` lanes, nothing in the others.
+#[inline(always)]
+pub(crate) fn first_lanes(count: usize) -> Names {
+    Names::new(FIRST_LANES[count.min(LANES)])
+}
+
+const FIRST_LANES: [[u32; LANES]; LANES + 1] = {
+    const ALL: u32 = u32::MAX;
+    [[0; LANES], [ALL, 0, 0, 0], [ALL, ALL, 0, 0], [ALL, ALL, ALL, 0], [ALL; LANES]]
+};
+
+/// The sums over the lanes of four numbers each.
+#[inline(always)]
+pub(crate) fn sums(numbers: [Numbers; 4]) -> [f32; 4] {
+    let [a, b, c, d] = Numbers::transpose(numbers);
+    ((a + b) + (c + d)).to_array()
+}
+
+/// Brings vectors side by side, and names whose bits are in their last coordinate.
+#[inline(always)]
+pub(crate) fn named_vectors(vectors: [Vec4; LANES]) -> (Vectors, Names) {
+    let rows = vectors.map(|vector| Numbers::new(vector.to_array()));
+    let [x, y, z, names] = Numbers::transpose(rows);
+    (Vectors { x, y, z }, wide::bytemuck::cast(names))
+}
+
+/// The largest of the lanes.
+#[inline(always)]
+pub(crate) fn largest(numbers: Numbers) -> f32 {
+    numbers.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max)
+}
+
+impl Vectors {
+    #[inline(always)]
+    pub(crate) fn splat(vector: Vec3A) -> Self {
+        let [x, y, z] = vector.to_array().map(Numbers::splat);
+        Self { x, y, z }
+    }
+
+    /// Those of four faces or fewer, and nothing for the others.
+    #[inline(always)]
+    pub(crate) fn filled_up(vectors: &[Vec3A]) -> Self {
+        named_vectors(from_fn(|lane| vectors.get(lane).map_or(Vec4::ZERO, |vector| vector.extend(0.0)))).0
+    }
+
+    /// What it is where `mask` is all ones, and nothing where it is not.
+    #[inline(always)]
+    pub(crate) fn masked(self, mask: Names) -> Self {
+        let mask: Numbers = wide::bytemuck::cast(mask);
+        Self { x: self.x & mask, y: self.y & mask, z: self.z & mask }
+    }
+
+    #[inline(always)]
+    pub(crate) fn coordinates(self) -> [Numbers; 3] {
+        [self.x, self.y, self.z]
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> Numbers {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    pub(crate) fn length_squared(self) -> Numbers {
+        self.dot(self)
+    }
+
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+}
+
+impl Add for Vectors {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl Sub for Vectors {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+impl Mul<Numbers> for Vectors {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: Numbers) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
