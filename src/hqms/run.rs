@@ -35,7 +35,7 @@ const FINISH_VERTICES: usize = 12_000;
 /// Fewer tiles than this are the work of one thread.
 const FEW_TILES: usize = 4;
 /// So few vertices are finished however far the goal is; so many where vertices stay.
-const FEW_VERTICES: usize = 600;
+const FEW_VERTICES: usize = 1000;
 const FEW_VERTICES_HALF_EDGE: usize = 1000;
 /// A run may have to come back to where the surface was this many times larger than the goal.
 const STUCK_RATIO: f32 = 10.0;
