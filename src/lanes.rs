@@ -130,3 +130,58 @@ impl Mul<Numbers> for Vectors {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn vectors() -> impl Strategy<Value = Vec<Vec3A>> {
+        prop::collection::vec([-9.0f32..9.0, -9.0..9.0, -9.0..9.0].prop_map(Vec3A::from), 0..=LANES)
+    }
+
+    proptest! {
+        /// To the last bit, and nothing in lanes that have no vector.
+        #[test]
+        fn a_lane_is_what_its_vector_is(a in vectors(), b in vectors(), factor in -3.0f32..3.0) {
+            let lane = |vectors: &[Vec3A], lane: usize| vectors.get(lane).copied().unwrap_or(Vec3A::ZERO);
+            let (side_by_side, other) = (Vectors::filled_up(&a), Vectors::filled_up(&b));
+            let at = |vectors: Vectors, lane: usize| {
+                Vec3A::from(vectors.coordinates().map(|numbers| numbers.to_array()[lane]))
+            };
+            for index in 0..LANES {
+                let (a, b) = (lane(&a, index), lane(&b, index));
+                prop_assert_eq!(at(side_by_side, index), a);
+                prop_assert_eq!(at(side_by_side.cross(other), index), a.cross(b));
+                prop_assert_eq!(at(side_by_side + other, index), a + b);
+                prop_assert_eq!(at(side_by_side - other, index), a - b);
+                prop_assert_eq!(at(side_by_side * Numbers::splat(factor), index), a * factor);
+                prop_assert_eq!(side_by_side.dot(other).to_array()[index], a.x * b.x + a.y * b.y + a.z * b.z);
+            }
+        }
+
+        #[test]
+        fn lanes_are_summed_and_compared(numbers in prop::array::uniform4(prop::array::uniform4(-9.0f32..9.0))) {
+            let found = sums(numbers.map(Numbers::new));
+            for (numbers, found) in numbers.into_iter().zip(found) {
+                prop_assert!((numbers.iter().sum::<f32>() - found).abs() < 1e-5);
+                let most = numbers.into_iter().fold(f32::MIN, f32::max);
+                prop_assert_eq!(largest(Numbers::new(numbers)), most);
+            }
+        }
+
+        /// Names are numbers that are no numbers, too.
+        #[test]
+        fn names_come_through_as_they_are(names in prop::array::uniform4(any::<u32>()), count in 0usize..9) {
+            let ways = names.map(|name| Vec3A::ONE.extend(f32::from_bits(name)));
+            let (ways, found) = named_vectors(ways);
+            prop_assert_eq!(found.to_array(), names);
+            let first = first_lanes(count).to_array();
+            prop_assert_eq!(first, from_fn(|lane| if lane < count { u32::MAX } else { 0 }));
+            let [x, y, z] = ways.masked(first_lanes(count)).coordinates();
+            let expected: [f32; LANES] = from_fn(|lane| if lane < count { 1.0 } else { 0.0 });
+            prop_assert!([x, y, z].iter().all(|numbers| numbers.to_array() == expected));
+        }
+    }
+}

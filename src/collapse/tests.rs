@@ -8,7 +8,8 @@ use proptest::prelude::*;
 
 use super::ring::Ring;
 use super::surface::{Setting, Surface, flag};
-use super::{Edge, fold};
+use super::{Edge, LINE, are_lines, fold, is_line};
+use crate::lanes::{Numbers, Vectors};
 use crate::mesh::{Mesh, Topology, shapes};
 use crate::workers::Workers;
 
@@ -208,4 +209,27 @@ fn a_sliver_does_not_become_a_line() {
     let onto_the_line = Vec3A::new(next.x, corner.y, next.z) - corner;
     assert_eq!(fold(&ring, 3, onto_the_line), None);
     assert!(fold(&ring, 3, 0.5 * onto_the_line).is_some());
+}
+
+proptest! {
+    /// What is decided for faces side by side is what is decided for each.
+    #[test]
+    fn lines_are_lines_side_by_side(
+        corner in [-2.0f32..2.0, -2.0..2.0, -2.0..2.0],
+        next in [-2.0f32..2.0, -2.0..2.0, -2.0..2.0],
+        along in -2.0f32..2.0,
+        off in prop_oneof![Just(0.0f32), -1e-6f32..1e-6, -1e-2f32..1e-2],
+    ) {
+        let [corner, next] = [corner, next].map(Vec3A::from);
+        let previous = next * along + Vec3A::new(0.0, 0.0, off);
+        let mut ring = Ring::default();
+        ring.begin(1).push((1, 2), next - corner, previous - corner);
+        ring.complete(0, false, 1);
+        let offset = -corner;
+        let (spokes, _) = ring.surviving_spokes(3).next().unwrap();
+        let area = spokes.moved(Vectors::splat(offset)).length_squared();
+        let narrowest = Numbers::splat(LINE * LINE * offset.length_squared());
+        let side_by_side = are_lines(area, spokes, narrowest).to_bitmask() & 1 == 1;
+        prop_assert_eq!(side_by_side, is_line(area.to_array()[0], next - corner, previous - corner, offset));
+    }
 }

@@ -234,3 +234,89 @@ pub(super) fn split<T>(slice: &mut [T], cuts: impl Iterator<Item = usize>) -> Ve
     pieces.push(rest);
     pieces
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use std::sync::atomic::AtomicU32;
+
+    use super::*;
+
+    const VERTICES: u32 = 3000;
+
+    /// Faces that mostly follow their vertices, and some that do not.
+    fn faces() -> impl Strategy<Value = Vec<[u32; 3]>> {
+        let face = (0..VERTICES, 1u32..40, 1u32..40, prop::bool::weighted(0.01)).prop_map(
+            |(vertex, next, previous, far)| {
+                let reach = if far { 50 } else { 1 };
+                [vertex, (vertex + reach * next) % VERTICES, (vertex + reach * next + previous) % VERTICES]
+            },
+        );
+        prop::collection::vec(face, 0..4000).prop_map(|mut faces| {
+            faces.sort_unstable();
+            faces
+        })
+    }
+
+    fn atomic(faces: &[[u32; 3]]) -> Vec<Face> {
+        faces.iter().map(|face| face.map(AtomicU32::new)).collect()
+    }
+
+    fn around(faces: &[[u32; 3]], vertex: u32) -> Vec<u32> {
+        let corners = faces.iter().zip(0..).flat_map(|(face, index)| {
+            face.iter().zip(0..).map(move |(&vertex, corner)| (vertex, index << 2 | corner))
+        });
+        corners.filter(|&(of, _)| of == vertex).map(|(_, corner)| corner).collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        /// With spans and without, of any range.
+        #[test]
+        fn rings_are_those_of_all_faces(faces in faces(), bounds in [0..=VERTICES, 0..=VERTICES]) {
+            let [start, end] = [bounds[0].min(bounds[1]), bounds[0].max(bounds[1])];
+            let atomic = atomic(&faces);
+            for spans in [Spans::default(), Spans::new(&atomic, &Workers::Caller)] {
+                let rings = Rings::new(&atomic, &spans, start..end);
+                for vertex in (start..end).step_by(37) {
+                    prop_assert_eq!(rings.around(vertex), around(&faces, vertex));
+                }
+            }
+        }
+
+        /// No block is left out that has one of the vertices, and none passes for having no others that has some.
+        #[test]
+        fn spans_leave_out_no_face(faces in faces(), start in 0..VERTICES, length in 0..VERTICES) {
+            let vertices = start..(start + length).min(VERTICES);
+            let atomic = atomic(&faces);
+            let spans = Spans::new(&atomic, &Workers::Caller);
+            let mut seen = vec![false; faces.len()];
+            for (first, block, is_within) in spans.touching(&atomic, &vertices) {
+                for (index, face) in (first..).zip(block) {
+                    seen[index] = true;
+                    prop_assert!(!is_within || corners(face).iter().all(|corner| vertices.contains(corner)));
+                }
+            }
+            for (face, seen) in faces.iter().zip(seen) {
+                prop_assert!(seen || !face.iter().any(|corner| vertices.contains(corner)));
+            }
+        }
+
+        /// As many as are asked for but one, strided evenly, each with its corners.
+        #[test]
+        fn samples_are_strided(faces in faces(), count in 1usize..=VERTICES as usize) {
+            let rings = SampledRings::new(&atomic(&faces), VERTICES as usize, count, &Workers::Caller);
+            prop_assert!((count - 1..=count).contains(&rings.count()), "{} of {}", rings.count(), count);
+            let vertices: Vec<u32> = (0..rings.count()).map(|index| rings.vertex(index)).collect();
+            let stride = f64::from(VERTICES) / count as f64;
+            for (index, &vertex) in vertices.iter().enumerate() {
+                prop_assert!(vertex < VERTICES);
+                prop_assert!((f64::from(vertex) - index as f64 * stride).abs() <= 1.0 + 1e-6 * f64::from(vertex));
+            }
+            for index in (0..rings.count()).step_by(61) {
+                prop_assert_eq!(rings.around(index), around(&faces, vertices[index]));
+            }
+        }
+    }
+}
