@@ -25,6 +25,8 @@ use rounds::{Case, Contender, play};
 const SIZES: [usize; 5] = [76, 153, 304, 577, 1155];
 /// How many of them to compare on.
 const COMPARED: usize = 4;
+/// And those of a mesh of 100 million.
+const HUGE: usize = 2887;
 /// What the meshes are reduced to where it is the time of a triangle that is of interest.
 const SCALING_SHARE: Wish = Wish::Share(0.1);
 
@@ -49,6 +51,9 @@ struct Arguments {
     /// Instead: how the time of a triangle grows from 70 thousand to 16 million, leaving 10 %.
     #[arg(long, conflicts_with_all = ["files", "targets"])]
     scaling: bool,
+    /// The same up to 100 million triangles, and decimesh alone: others take minutes there, and 11 GB.
+    #[arg(long, requires = "scaling")]
+    huge: bool,
     /// Write the measurements, as JSON, to this file.
     #[arg(long, value_name = "FILE.json")]
     json: Option<PathBuf>,
@@ -101,7 +106,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         return Err(openmesh_sys::Error::Unavailable.into());
     }
     allocation::count_meshoptimizer();
-    let contenders = Contender::all(&arguments.threads, arguments.openmesh);
+    let mut contenders = Contender::all(&arguments.threads, arguments.openmesh);
+    contenders.retain(|contender| !arguments.huge || contender.is_default());
     let setting = report::setting();
     report::print_setting(&setting);
     let records = if arguments.scaling {
@@ -147,7 +153,8 @@ fn comparisons(arguments: &Arguments, contenders: &[Contender]) -> Result<Vec<Va
 }
 
 fn scaling(arguments: &Arguments, contenders: &[Contender]) -> Result<Vec<Value>, Box<dyn Error>> {
-    let meshes = SIZES.map(|cells| bumpy_sphere(cells, 1));
+    let huge = arguments.huge.then_some(HUGE);
+    let meshes: Vec<Mesh> = SIZES.into_iter().chain(huge).map(|cells| bumpy_sphere(cells, 1)).collect();
     let cases: Vec<Case> = meshes.iter().map(|mesh| SCALING_SHARE.of(mesh)).collect();
     println!("\nbumpy spheres to 10 %, microseconds a triangle of the input (the fastest run)");
     let measurements = play(contenders, &cases, arguments.runs)?;

@@ -51,6 +51,11 @@ struct Run {
 }
 
 impl Contender {
+    /// Whether this is decimesh as it is unless asked otherwise.
+    pub(crate) fn is_default(self) -> bool {
+        matches!(self, Self::Decimesh { selection: Selection::SampledThreshold, .. })
+    }
+
     /// decimesh, its default selection with each number of threads; meshoptimizer; OpenMesh if asked for.
     pub(crate) fn all(threads: &[usize], openmesh: bool) -> Vec<Self> {
         let threshold = |&threads| Self::Decimesh { selection: Selection::SampledThreshold, threads };

@@ -96,6 +96,10 @@ const LINE: f32 = 1e-5;
 /// in the last place: it may have none.
 const SLIVER: f32 = 4.8e-7;
 
+/// A vertex whose squared distance from a face is less than this share of the way moved, squared, lies on it: the
+/// rest is rounding.
+const ON_FACE: f32 = 1e-12;
+
 impl Edge<'_> {
     /// The collapse of this edge, if the rules allow it. `neighbours` is room to work in.
     #[inline(always)]
@@ -169,7 +173,7 @@ impl Edge<'_> {
                 nearest = nearest.min(distance_to_triangle_squared(triangle));
             }
         }
-        nearest
+        if nearest <= ON_FACE * (position - point).length_squared() { 0.0 } else { nearest }
     }
 
     /// Whether a face would come to look away from the mean of those around the new vertex, as none did

@@ -322,11 +322,10 @@ impl Ring {
     pub(crate) fn cheapest_neighbour(&self, eligible: impl Fn(u32) -> bool) -> Option<(f32, u32)> {
         let mut best = u64::MAX;
         let mut consider = |names: Names, ways: Vectors| {
-            // A lane that names nothing costs as much as nothing does.
-            let costs = self.quadric.at_each(ways).to_bits() | names.simd_eq(Names::splat(NONE));
-            for (neighbour, cost) in names.to_array().into_iter().zip(costs.to_array()) {
-                if eligible(neighbour) {
-                    best = best.min(u64::from(cost) << 32 | u64::from(neighbour));
+            let costs = self.quadric.at_each(ways).to_array();
+            for (neighbour, cost) in names.to_array().into_iter().zip(costs) {
+                if neighbour != NONE && eligible(neighbour) {
+                    best = best.min(key(cost, neighbour));
                 }
             }
         };

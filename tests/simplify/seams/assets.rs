@@ -269,11 +269,13 @@ fn groups_keep_their_area() {
         })
     };
     let before = areas(&mesh, &groups);
-    for (target, count) in [(Target::Ratio(0.2), 160), (Target::MaxError(1e-5), 6)] {
+    // An inner collapse takes two triangles where there may be one too many.
+    for (target, counts) in [(Target::Ratio(0.2), 159..=160), (Target::MaxError(1e-5), 6..=6)] {
         for cross_seams in [false, true] {
             let options = Options { groups: Some(groups.clone()), cross_seams, ..existing(target) };
             let result = run(&mesh, &options);
-            assert_eq!(result.mesh.triangles().len(), count);
+            let count = result.mesh.triangles().len();
+            assert!(counts.contains(&count), "{count} triangles");
             let after = areas(&result.mesh, result.groups.as_ref().unwrap());
             for (before, after) in before.iter().zip(after) {
                 assert!((before - after).abs() < 1e-5, "{before} became {after}");
