@@ -79,6 +79,11 @@ TEST_CASE("errors: NULL meshes and paths are named") {
     refused(decimesh_deviation(nullptr, mesh, nullptr, &result), "a is NULL");
     refused(decimesh_deviation(mesh, nullptr, nullptr, &result), "b is NULL");
     refused(decimesh_deviation(mesh, mesh, nullptr, nullptr), "result is NULL");
+    float distance = 77;
+    refused(decimesh_vertex_distances(nullptr, mesh, nullptr, &distance), "from is NULL");
+    refused(decimesh_vertex_distances(mesh, nullptr, nullptr, &distance), "to is NULL");
+    refused(decimesh_vertex_distances(mesh, mesh, nullptr, nullptr), "distances is NULL");
+    CHECK(distance == 77);
     refused(decimesh_bound(nullptr, mesh, nullptr, &bound), "a is NULL");
     refused(decimesh_bound(mesh, nullptr, nullptr, &bound), "b is NULL");
     refused(decimesh_bound(mesh, mesh, nullptr, nullptr), "result is NULL");

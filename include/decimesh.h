@@ -1416,6 +1416,23 @@ decimesh_status decimesh_deviation(const struct decimesh_mesh *a,
                                    struct decimesh_deviation_result *result);
 
 /**
+ * Measures how far each vertex of one mesh is from the surface of another: the nearest point is found exactly,
+ * in double precision.
+ *
+ * distances has room for as many as from has vertices, and receives them in their order, in units of the
+ * positions; vertices that no triangle uses are measured as well. options may be NULL: the defaults; their samples and
+ * seed are not looked at. Fails with _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _EMPTY (to is without triangles),
+ * _CANCELLED or _THREADS.
+ *
+ * O(n log n) time, about 110 bytes of memory a triangle of to, more while the tree is built, and 4 a vertex of from.
+ * Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_vertex_distances(const struct decimesh_mesh *from,
+                                          const struct decimesh_mesh *to,
+                                          const struct decimesh_deviation_options *options,
+                                          float *distances);
+
+/**
  * Sets the defaults: a tolerance of 1 %, 5000000 pieces, all threads. NULL is left alone.
  *
  * struct_size is sizeof(decimesh_bound_options), as the caller was compiled: no more is written.
