@@ -1,7 +1,8 @@
 #include "arguments.hpp"
 
 #include <charconv>
-#include <cmath>
+#include <cstdint>
+#include <initializer_list>
 
 namespace viewer {
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float bar_width = 24;
 constexpr float bar_height = 256;
-constexpr float text_width = 150;
+constexpr float text_width = 180;
 constexpr float margin = 16;
 constexpr int ticks = 5;
 

@@ -20,20 +20,27 @@ decimesh::Progress part(const decimesh::Progress &whole, float from, float to) {
 }
 
 Distances measure(decimesh::MeshView original, decimesh::MeshView surface, const decimesh::Progress &progress) {
-    decimesh::DeviationOptions options;
-    options.progress = progress;
-    Distances distances;
     // Where nothing is left there is no distance to it.
     if (surface.triangle_count() == 0) {
-        return distances;
+        return {};
     }
-    distances.of_vertices = decimesh::vertex_distances(original, surface, options);
+    decimesh::DeviationOptions options;
+    options.progress = progress;
+    Distances distances{decimesh::vertex_distances(original, surface, options)};
+    // A vertex that no triangle uses is not on the surface, and may be anywhere.
+    std::vector<bool> is_seen(original.vertex_count(), false);
+    std::size_t count = 0;
     double squares = 0;
-    for (const float distance : distances.of_vertices) {
-        distances.largest = std::max(distances.largest, distance);
-        squares += double{distance} * double{distance};
+    for (const std::uint32_t vertex : original.indices()) {
+        if (!is_seen[vertex]) {
+            is_seen[vertex] = true;
+            ++count;
+            const float distance = distances.of_vertices[vertex];
+            distances.largest = std::max(distances.largest, distance);
+            squares += double{distance} * double{distance};
+        }
     }
-    distances.rms = static_cast<float>(std::sqrt(squares / static_cast<double>(distances.of_vertices.size())));
+    distances.rms = static_cast<float>(std::sqrt(squares / static_cast<double>(count)));
     return distances;
 }
 

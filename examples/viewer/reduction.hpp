@@ -34,6 +34,7 @@ struct Distances {
     /// Of each vertex of the original from the surface, in units of the positions. (Those of the surface's own vertices
     /// would say little: where they stay, they are on the original, whatever is between them.)
     std::vector<float> of_vertices;
+    /// Of those that a triangle uses.
     float largest = 0;
     float rms = 0;
 };
