@@ -134,6 +134,11 @@ TEST_CASE("callbacks: exceptions arrive from every step as they were thrown") {
         decimesh::deviation(mesh, mesh, measuring);
     });
     throw_at_every_step([&](const decimesh::Progress &progress) {
+        decimesh::MultipleChoiceOptions choosing;
+        choosing.progress = progress;
+        decimesh::multiple_choice(mesh, 10, choosing);
+    });
+    throw_at_every_step([&](const decimesh::Progress &progress) {
         decimesh::DeviationOptions measuring;
         measuring.progress = progress;
         decimesh::vertex_distances(mesh, mesh, measuring);

@@ -73,6 +73,10 @@ TEST_CASE("errors: NULL meshes and paths are named") {
     refused(decimesh_simplify_within(nullptr, 1, &options, &made, nullptr, &bound), "mesh is NULL");
     refused(decimesh_simplify_within(mesh, 1, nullptr, &made, nullptr, &bound), "options is NULL");
     refused(decimesh_simplify_within(mesh, 1, &options, nullptr, nullptr, &bound), "simplified is NULL");
+    decimesh_stopped_by stopped_by = 77;
+    refused(decimesh_multiple_choice(nullptr, 2, nullptr, &made, &stopped_by), "mesh is NULL");
+    refused(decimesh_multiple_choice(mesh, 2, nullptr, nullptr, &stopped_by), "simplified is NULL");
+    CHECK(stopped_by == 77);
     refused(decimesh_levels_build(nullptr, &options, values, 1, &levels), "mesh is NULL");
     refused(decimesh_levels_build(mesh, &options, nullptr, 1, &levels), "target_values is NULL");
     refused(decimesh_levels_build(mesh, &options, values, 1, nullptr), "levels is NULL");
@@ -131,6 +135,7 @@ TEST_CASE("errors: what cannot fail takes NULL") {
     decimesh_simplify_report_init(nullptr, sizeof(decimesh_simplify_report));
     decimesh_deviation_options_init(nullptr, sizeof(decimesh_deviation_options));
     decimesh_deviation_result_init(nullptr, sizeof(decimesh_deviation_result));
+    decimesh_multiple_choice_options_init(nullptr, sizeof(decimesh_multiple_choice_options));
     decimesh_bound_options_init(nullptr, sizeof(decimesh_bound_options));
     decimesh_bound_result_init(nullptr, sizeof(decimesh_bound_result));
     CHECK(decimesh_mesh_vertex_count(nullptr) == 0);

@@ -273,6 +273,14 @@ TEST_CASE("errors: structs that are read may be newer if nothing in them is unkn
         std::vector<float> distances(mesh.vertex_count());
         return decimesh_vertex_distances(mesh.get(), mesh.get(), raw, distances.data());
     });
+    decimesh_multiple_choice_options choosing;
+    decimesh_multiple_choice_options_init(&choosing, sizeof choosing);
+    check_sizes(choosing, "decimesh_multiple_choice_options", [&](const decimesh_multiple_choice_options *raw) {
+        decimesh_mesh *made = nullptr;
+        const decimesh_status status = decimesh_multiple_choice(mesh.get(), 2, raw, &made, nullptr);
+        decimesh_mesh_destroy(made);
+        return status;
+    });
     decimesh_bound_options bounding;
     decimesh_bound_options_init(&bounding, sizeof bounding);
     check_sizes(bounding, "decimesh_bound_options", [&](const decimesh_bound_options *raw) {

@@ -434,7 +434,7 @@ fn vertices_alone_have_distances_but_are_no_surface() {
     let vertices_only = mesh(vec![[1.0, 2.0, 3.0]; 4], vec![]);
     let floor = plane(4, 4);
     assert_eq!(of_vertices(&vertices_only, &floor, 1), [3.0; 4]);
-    assert_eq!(of_vertices(&Mesh::default(), &floor, 1), []);
+    assert!(of_vertices(&Mesh::default(), &floor, 1).is_empty());
     let error =
         vertex_distances(&floor, &vertices_only, 1, &mut Monitor::silent()).expect_err("no triangles");
     assert!(matches!(error, DeviationError::Empty { mesh: "second" }), "{error}");
