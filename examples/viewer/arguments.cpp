@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cstdint>
-#include <initializer_list>
 
 namespace viewer {
 
@@ -28,12 +27,12 @@ std::size_t count(std::string_view option, std::string_view text) {
 }
 
 Engine engine(std::string_view name) {
-    for (const Engine engine : {Engine::hqms, Engine::indices}) {
+    for (const Engine engine : all_engines) {
         if (name == name_of(engine)) {
             return engine;
         }
     }
-    throw UsageError("--engine is hqms or indices, not '" + std::string(name) + "'");
+    throw UsageError("--engine is hqms, indices or multiple-choice, not '" + std::string(name) + "'");
 }
 
 Layout layout(std::string_view name) {
@@ -129,7 +128,8 @@ const char *usage() {
 Shows a mesh (PLY, OBJ, STL, OFF, glTF, GLB) and what decimesh makes of it.
 
   --triangles N            simplify to N triangles
-  --engine hqms|indices    by new vertices (hqms, the default), or by those that there are (indices)
+  --engine NAME            hqms, by new vertices (the default); indices, by those that there are; multiple-choice, the
+                           same as Jia, Tang and Pan do it
   --levels N               build N nested levels instead, each of half as many triangles as the one before
   --save FILE              save the result, or the level shown; nested levels to a .glb all together
 

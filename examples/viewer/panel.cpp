@@ -41,10 +41,11 @@ void draw_simplify(Session &session, PanelFields &fields) {
         fields.triangles = std::max(triangles / 2, 1);
     }
     int engine = static_cast<int>(fields.engine);
-    ImGui::TextUnformatted("Engine");
-    ImGui::RadioButton("HQMS", &engine, static_cast<int>(Engine::hqms));
-    ImGui::SameLine();
-    ImGui::RadioButton("vertices stay", &engine, static_cast<int>(Engine::indices));
+    ImGui::TextUnformatted("by");
+    for (const Engine each : all_engines) {
+        ImGui::SameLine();
+        ImGui::RadioButton(name_of(each), &engine, static_cast<int>(each));
+    }
     fields.engine = static_cast<Engine>(engine);
     ImGui::TextUnformatted("Triangles");
     ImGui::SetNextItemWidth(-1);
@@ -113,13 +114,8 @@ void draw_distances(const Distances &distances, double diagonal) {
 void draw_result(const Session &session, const ViewSettings &view) {
     const double diagonal = session.original()->frame.diagonal;
     if (const auto *reduced = std::get_if<Reduced>(&session.result())) {
-        const decimesh::Report &report = reduced->simplified.report;
-        ImGui::Text("%zu triangles in %.2f s", reduced->simplified.mesh.triangle_count(), reduced->seconds);
-        ImGui::Text("stopped: %s", reason(report.stopped_by));
-        ImGui::Text("estimated error %.3g", double{report.error});
-        if (report.topology_changed) {
-            ImGui::TextUnformatted("holes, handles or pieces were given up");
-        }
+        ImGui::Text("%zu triangles in %.2f s", reduced->mesh.triangle_count(), reduced->seconds);
+        ImGui::Text("stopped: %s", reason(reduced->stopped_by));
         draw_distances(reduced->distances, diagonal);
     } else if (const auto *set = std::get_if<LevelSet>(&session.result())) {
         const std::size_t shown = std::min(view.level, set->levels.size() - 1);

@@ -44,10 +44,30 @@ Distances measure(decimesh::MeshView original, decimesh::MeshView surface, const
     return distances;
 }
 
+Reduced simplify(decimesh::MeshView mesh, Engine engine, std::size_t triangles, const decimesh::Progress &progress) {
+    if (engine == Engine::multiple_choice) {
+        decimesh::MultipleChoiceOptions options;
+        options.progress = progress;
+        decimesh::Decimated result = decimesh::multiple_choice(mesh, triangles, options);
+        return {engine, std::move(result.mesh), result.stopped_by, {}, 0};
+    }
+    decimesh::Options options;
+    options.target = decimesh::Target::triangles(triangles);
+    options.placement = engine == Engine::hqms ? decimesh::Placement::optimal : decimesh::Placement::existing;
+    options.progress = progress;
+    decimesh::Simplified result = decimesh::simplify(mesh, options);
+    return {engine, std::move(result.mesh), result.report.stopped_by, {}, 0};
+}
+
 }   // namespace
 
 const char *name_of(Engine engine) {
-    return engine == Engine::hqms ? "hqms" : "indices";
+    switch (engine) {
+    case Engine::hqms: return "hqms";
+    case Engine::indices: return "indices";
+    case Engine::multiple_choice: return "multiple-choice";
+    }
+    return "unknown";
 }
 
 Original read(const std::string &path) {
@@ -63,15 +83,11 @@ Reduced reduce(const Original &original, Engine engine, std::size_t triangles, c
     if (triangles == 0) {
         throw decimesh::Error(decimesh::Status::option, "a target of 0 triangles leaves nothing to see");
     }
-    decimesh::Options options;
-    options.target = decimesh::Target::triangles(triangles);
-    options.placement = engine == Engine::hqms ? decimesh::Placement::optimal : decimesh::Placement::existing;
-    options.progress = part(progress, 0, 0.5F);
     const Clock::time_point start = Clock::now();
-    decimesh::Simplified simplified = decimesh::simplify(original.mesh, options);
-    const double seconds = seconds_since(start);
-    Distances distances = measure(original.mesh, simplified.mesh, part(progress, 0.5F, 1));
-    return {engine, std::move(simplified), std::move(distances), seconds};
+    Reduced reduced = simplify(original.mesh, engine, triangles, part(progress, 0, 0.5F));
+    reduced.seconds = seconds_since(start);
+    reduced.distances = measure(original.mesh, reduced.mesh, part(progress, 0.5F, 1));
+    return reduced;
 }
 
 LevelSet build_levels(const Original &original, std::size_t count, const decimesh::Progress &progress) {

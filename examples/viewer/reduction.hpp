@@ -3,6 +3,7 @@
 #ifndef VIEWER_REDUCTION_HPP
 #define VIEWER_REDUCTION_HPP
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -22,9 +23,12 @@ struct Original {
 
 /// By their names on decimesh's command line.
 enum class Engine {
-    hqms,      ///< vertices go where the error is least
-    indices,   ///< vertices stay: fewer indices into the ones that there are
+    hqms,              ///< vertices go where the error is least
+    indices,           ///< vertices stay: fewer indices into the ones that there are
+    multiple_choice,   ///< the same by the visual cost and random choices of Jia, Tang and Pan
 };
+
+inline constexpr std::array<Engine, 3> all_engines{Engine::hqms, Engine::indices, Engine::multiple_choice};
 
 /// The engine's name on the command line.
 const char *name_of(Engine engine);
@@ -42,9 +46,10 @@ struct Distances {
 /// A simplified mesh.
 struct Reduced {
     Engine engine;
-    decimesh::Simplified simplified;
+    decimesh::Mesh mesh;
+    decimesh::StoppedBy stopped_by;   ///< why it is as large as it is
     Distances distances;
-    double seconds;   ///< that the simplification took
+    double seconds;                   ///< that the simplification took
 };
 
 /// Nested levels: level 0 is the original, with its vertices in another order.

@@ -24,7 +24,7 @@ Drawable Scene::original(const Session &session) {
 
 Drawable Scene::result(const Session &session, std::size_t level) {
     if (const auto *reduced = std::get_if<Reduced>(&session.result())) {
-        const decimesh::Mesh &mesh = reduced->simplified.mesh;
+        const decimesh::Mesh &mesh = reduced->mesh;
         return show(result_, mesh, session.original()->frame, 0, mesh.indices());
     }
     if (const auto *set = std::get_if<LevelSet>(&session.result())) {

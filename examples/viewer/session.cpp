@@ -55,7 +55,7 @@ void Session::build_levels(std::size_t count) {
 void Session::save(const std::string &path, std::size_t level) {
     try {
         if (const auto *reduced = std::get_if<Reduced>(&result_)) {
-            reduced->simplified.mesh.write(path);
+            reduced->mesh.write(path);
         } else if (const auto *set = std::get_if<LevelSet>(&result_)) {
             if (ends_with(path, ".glb")) {
                 set->levels.write_glb(path);
@@ -123,7 +123,7 @@ void Session::accept(Outcome outcome) {
         result_ = std::monostate{};
         say(original_->path + ": " + counts(original_->mesh.triangle_count(), original_->mesh.vertex_count()));
     } else if (auto *reduced = std::get_if<Reduced>(&outcome)) {
-        const decimesh::Mesh &mesh = reduced->simplified.mesh;
+        const decimesh::Mesh &mesh = reduced->mesh;
         say(std::string(name_of(reduced->engine)) + ": " + counts(mesh.triangle_count(), mesh.vertex_count()) +
             in_seconds(reduced->seconds));
         result_ = std::move(*reduced);

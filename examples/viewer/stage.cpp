@@ -23,7 +23,7 @@ std::string triangles(std::size_t count) {
 
 std::string result_caption(const Session &session, std::size_t level) {
     if (const auto *reduced = std::get_if<Reduced>(&session.result())) {
-        return std::string(name_of(reduced->engine)) + ": " + triangles(reduced->simplified.mesh.triangle_count());
+        return std::string(name_of(reduced->engine)) + ": " + triangles(reduced->mesh.triangle_count());
     }
     if (const auto *set = std::get_if<LevelSet>(&session.result())) {
         return "level " + std::to_string(level) + ": " + triangles(set->levels.level(level).index_count / 3);

@@ -41,10 +41,4 @@ decimesh::Mesh pebble(std::uint32_t rings, std::array<float, 3> centre) {
     return decimesh::Mesh::from_buffers(positions, indices);
 }
 
-decimesh::Mesh square(float height) {
-    const std::vector<float> positions{0, 0, height, 1, 0, height, 1, 1, height, 0, 1, height};
-    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
-    return decimesh::Mesh::from_buffers(positions, indices);
-}
-
 }   // namespace shapes

@@ -14,9 +14,6 @@ namespace shapes {
 /// simplification has something to lose.
 decimesh::Mesh pebble(std::uint32_t rings, std::array<float, 3> centre = {});
 
-/// The unit square at z = `height`, of two triangles.
-decimesh::Mesh square(float height);
-
 }   // namespace shapes
 
 #endif
