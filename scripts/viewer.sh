@@ -2,11 +2,11 @@
 # Builds the viewer (examples/viewer) against an installed decimesh and runs its tests, in a window that nobody sees:
 # Xvfb, with Mesa's own rasterizer. What Debian has to give is installed where it may be.
 #
-#   scripts/viewer.sh [--prefix PREFIX [--command FILE]] [--out DIR] [--pictures]
+#   scripts/viewer.sh [--prefix PREFIX] [--command FILE] [--out DIR] [--pictures]
 #
 #   --prefix PREFIX  decimesh is installed there; without it, it is built, and installed beside the viewer
 #   --command FILE   the decimesh command of the same version: results are compared with its own, and it makes the
-#                    statue that docs/viewer.md shows
+#                    statue that docs/viewer.md shows. Without it, it is built, or, where there is a prefix, done without
 #   --out DIR        leave the viewer there, with the pictures of all tests; without it, nothing is left
 #   --pictures       write the pictures of docs/viewer.md anew
 #
@@ -57,8 +57,10 @@ if [ -z "$prefix" ]; then
         -DDECIMESH_BUILD_TESTS=OFF -DDECIMESH_BUILD_EXAMPLES=OFF "-DDECIMESH_CARGO_TARGET_DIR=$target"
     quietly cmake --build "$work/build"
     quietly cmake --install "$work/build" --prefix "$prefix"
-    quietly cargo build --locked --release -p decimesh-cli --target-dir "$target"
-    command=$target/release/decimesh
+    if [ -z "$command" ]; then
+        quietly cargo build --locked --release -p decimesh-cli --target-dir "$target"
+        command=$target/release/decimesh
+    fi
 fi
 
 say "building the viewer"

@@ -41,7 +41,8 @@ void draw_simplify(Session &session, PanelFields &fields) {
         fields.triangles = std::max(triangles / 2, 1);
     }
     int engine = static_cast<int>(fields.engine);
-    ImGui::TextUnformatted("by");
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Engine");
     for (const Engine each : all_engines) {
         ImGui::SameLine();
         ImGui::RadioButton(name_of(each), &engine, static_cast<int>(each));

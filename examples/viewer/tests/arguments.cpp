@@ -40,7 +40,11 @@ TEST_CASE("arguments: none is a window that stays") {
 }
 
 TEST_CASE("arguments: what makes no sense is refused, and named") {
-    const std::vector<std::pair<std::vector<std::string_view>, const char *>> cases{
+    struct Case {
+        std::vector<std::string_view> words;
+        const char *named;
+    };
+    const std::vector<Case> cases{
         {{"--triangles"}, "--triangles"},
         {{"a.ply", "--triangles", "-5"}, "-5"},
         {{"a.ply", "--triangles", "many"}, "many"},
@@ -60,13 +64,13 @@ TEST_CASE("arguments: what makes no sense is refused, and named") {
         {{"--triangles", "5"}, "no mesh"},
         {{"a.ply", "--save", "b.ply"}, "no result"},
     };
-    for (const auto &[words, named] : cases) {
-        CAPTURE(named);
+    for (const Case &refused : cases) {
+        CAPTURE(refused.named);
         try {
-            parse(words);
+            parse(refused.words);
             FAIL("it was taken");
         } catch (const UsageError &error) {
-            CHECK(std::string(error.what()).find(named) != std::string::npos);
+            CHECK(std::string(error.what()).find(refused.named) != std::string::npos);
         }
     }
 }
