@@ -348,7 +348,7 @@ fn hierarchies_give_the_meshes_that_they_give_to_rust() {
 
 #[test]
 fn multiple_choice_and_distances_of_vertices_are_those_of_rust() {
-    let mesh = stone();
+    let mesh = shapes::bumpy_sphere(12, 1);
     let selection =
         Selection::MultipleChoice { candidates: NonZeroU32::new(4).expect("it is not 0"), seed: 9 };
     let locked = [3, 77, 77];

@@ -11,7 +11,7 @@
 namespace viewer {
 
 /// In ImGui's coordinates.
-inline constexpr float panel_width = 330;
+inline constexpr float panel_width = 340;
 
 /// What the panel's fields say, apart from the view.
 struct PanelFields {
