@@ -12,10 +12,7 @@
 #
 # Without a prefix it needs cargo.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-root=$PWD
-target=${CARGO_TARGET_DIR:-$root/target}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -32,6 +29,9 @@ while [ $# -gt 0 ]; do
     *) echo "viewer: there is no option $1" >&2; exit 2 ;;
     esac
 done
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+target=${CARGO_TARGET_DIR:-$PWD/target}
 
 say() {
     echo "viewer: $*"

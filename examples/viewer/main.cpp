@@ -84,6 +84,7 @@ int run(const Arguments &arguments) {
     std::deque<std::function<void()>> steps = steps_of(arguments, session);
     window.on_drop([&](const std::string &path) {
         steps.clear();
+        fields.triangles = 0;
         session.open(path);
     });
 

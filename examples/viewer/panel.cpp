@@ -25,6 +25,7 @@ void draw_file(Session &session, PanelFields &fields) {
         ImGui::InputTextWithHint("##open", "a mesh to open", &fields.open_path, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
     if (ImGui::Button("Open", {-1, 0}) || is_entered) {
+        fields.triangles = 0;
         session.open(fields.open_path);
     }
     if (const Original *original = session.original()) {
