@@ -41,14 +41,9 @@ Drawable Scene::deviation(const Session &session, std::size_t level) {
     // Level 0 is the original with its vertices in the order of the levels, which the distances have as well.
     const bool is_nested = std::holds_alternative<LevelSet>(session.result());
     Drawable drawable = is_nested ? result(session, 0) : original(session);
-    if (distances_.size() <= level) {
-        distances_.resize(level + 1);
-    }
-    if (!distances_[level]) {
-        distances_[level].emplace(distances->of_vertices);
-        ++uploads_.values;
-    }
-    drawable.values = &*distances_[level];
+    const auto [values, is_new] = distances_.try_emplace(level, distances->of_vertices);
+    uploads_.values += is_new ? 1 : 0;
+    drawable.values = &values->second;
     return drawable;
 }
 
@@ -58,14 +53,9 @@ Drawable Scene::show(Shared &shared, decimesh::MeshView mesh, const Frame &frame
         shared.vertices.emplace(mesh, frame);
         ++uploads_.vertices;
     }
-    if (shared.indices.size() <= level) {
-        shared.indices.resize(level + 1);
-    }
-    if (!shared.indices[level]) {
-        shared.indices[level].emplace(indices);
-        ++uploads_.indices;
-    }
-    return {&*shared.vertices, &*shared.indices[level], nullptr};
+    const auto [at_level, is_new] = shared.indices.try_emplace(level, indices);
+    uploads_.indices += is_new ? 1 : 0;
+    return {&*shared.vertices, &at_level->second, nullptr};
 }
 
 }   // namespace viewer

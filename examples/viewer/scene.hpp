@@ -5,15 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <vector>
 
 #include "gpu_mesh.hpp"
 #include "session.hpp"
 
 namespace viewer {
 
-/// What to draw; the pointers are the scene's. Without vertices: nothing.
+/// What to draw; the pointers are the scene's, until its next update. Without vertices: nothing.
 struct Drawable {
     const GpuVertices *vertices = nullptr;
     const GpuIndices *indices = nullptr;
@@ -46,10 +46,10 @@ public:
     const Uploads &uploads() const noexcept { return uploads_; }
 
 private:
-    /// Vertices with what refers to them: an element for each level.
+    /// Vertices with what refers to them, by level. Maps, because what is in them stays where it is when more comes.
     struct Shared {
         std::optional<GpuVertices> vertices;
-        std::vector<std::optional<GpuIndices>> indices;
+        std::map<std::size_t, GpuIndices> indices;
     };
 
     Drawable show(Shared &shared, decimesh::MeshView mesh, const Frame &frame, std::size_t level,
@@ -59,7 +59,7 @@ private:
     std::uint64_t result_version_ = 0;
     Shared original_;
     Shared result_;
-    std::vector<std::optional<GpuValues>> distances_;
+    std::map<std::size_t, GpuValues> distances_;
     Uploads uploads_;
 };
 

@@ -50,17 +50,14 @@ void Stage::draw(const Session &session, const ViewSettings &settings, float lef
     const std::size_t level = std::min(settings.level, std::max<std::size_t>(session.level_count(), 1) - 1);
     Look look{settings.facets, settings.wireframe, 0};
     switch (settings.layout) {
-    case Layout::original: {
-        const Drawable original = scene_.original(session);
-        draw_surface(original, look, area, {});
+    case Layout::original:
+        draw_surface(scene_.original(session), look, area, {});
         caption(area.x, area.y, whole);
         break;
-    }
-    case Layout::result: {
+    case Layout::result:
         draw_surface(scene_.result(session, level), look, area, {});
         caption(area.x, area.y, result_caption(session, level));
         break;
-    }
     case Layout::side_by_side: {
         const float half = (area.width - gap) / 2;
         const Area first{area.x, area.y, half, area.height};

@@ -168,8 +168,16 @@ TEST_CASE("screens: levels are stepped through over vertices that are uploaded o
     // By halves, or one fewer.
     CHECK(played.says(": 10000 5000 2500 1250 6"));
     CHECK(played.says("40 frames; uploaded 1 vertex buffers, 6 index buffers, 0 value buffers"));
-    const Ended heat = view(pebble() + " --levels 5 --view deviation --play --frames 40");
+    const std::string deviation = pebble() + " --levels 5 --view deviation";
+    const Ended heat = view(deviation + " --play --frames 40");
     CHECK(heat.says("40 frames; uploaded 1 vertex buffers, 1 index buffers, 6 value buffers"));
+    // The colours of level 0 and the edges of another come from the same vertices.
+    const Picture wired = picture_of("level-5-deviation", deviation + " --level 5 --wireframe");
+    CHECK(wired.share(stage, is_violet) > 0.05);
+    CHECK(wired.share(stage, is_edge) > 0.005);
+    CHECK(wired.share(stage, is_edge) < 0.15);
+    const Ended wired_heat = view(deviation + " --wireframe --play --frames 40");
+    CHECK(wired_heat.says("40 frames; uploaded 1 vertex buffers, 6 index buffers, 6 value buffers"));
 }
 
 TEST_CASE("screens: results are those of the library, byte by byte, and of the command where there is one") {
