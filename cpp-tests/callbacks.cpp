@@ -133,6 +133,16 @@ TEST_CASE("callbacks: exceptions arrive from every step as they were thrown") {
         measuring.progress = progress;
         decimesh::deviation(mesh, mesh, measuring);
     });
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        decimesh::MultipleChoiceOptions choosing;
+        choosing.progress = progress;
+        decimesh::multiple_choice(mesh, 10, choosing);
+    });
+    throw_at_every_step([&](const decimesh::Progress &progress) {
+        decimesh::DeviationOptions measuring;
+        measuring.progress = progress;
+        decimesh::vertex_distances(mesh, mesh, measuring);
+    });
     const std::vector<decimesh::Target> targets = {decimesh::Target::ratio(0.3), decimesh::Target::ratio(0.1)};
     throw_at_every_step([&](const decimesh::Progress &progress) {
         options.progress = progress;

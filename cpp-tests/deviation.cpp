@@ -1,5 +1,8 @@
 /// Measured distances.
 
+#include <algorithm>
+#include <vector>
+
 #include <decimesh.hpp>
 #include <doctest/doctest.h>
 
@@ -86,6 +89,48 @@ TEST_CASE("deviation: progress rises and a missing mesh is an error") {
     decimesh::deviation(mesh, mesh, options);
     CHECK(last == 1);
     CHECK_THROWS_AS(decimesh::deviation(mesh, Mesh()), decimesh::Error);
+}
+
+TEST_CASE("deviation: each vertex has its distance") {
+    shapes::Shape hill = shapes::plane(4);
+    hill.positions[7][2] = 0.25F;
+    hill.positions.push_back({0.5F, 0.5F, 2.0F});
+    const std::vector<float> distances = decimesh::vertex_distances(hill.mesh(), shapes::plane(3).mesh());
+    REQUIRE(distances.size() == hill.positions.size());
+    for (std::size_t vertex = 0; vertex < distances.size(); ++vertex) {
+        CAPTURE(vertex);
+        CHECK(distances[vertex] == hill.positions[vertex][2]);
+    }
+}
+
+TEST_CASE("deviation: the farthest vertex is the maximum where samples are few") {
+    const Mesh fine = shapes::stone(16, 12).mesh();
+    const Mesh coarse = decimesh::simplify(fine, {decimesh::Target::ratio(0.1)}).mesh;
+    const std::vector<float> distances = decimesh::vertex_distances(fine, coarse);
+    DeviationOptions vertices_only;
+    vertices_only.samples = 0;
+    const double farthest = *std::max_element(distances.begin(), distances.end());
+    CHECK(farthest > 0);
+    CHECK(farthest == doctest::Approx(decimesh::deviation(fine, coarse, vertices_only).forward.max).epsilon(1e-6));
+    DeviationOptions two_threads;
+    two_threads.threads = 2;
+    CHECK(decimesh::vertex_distances(fine, coarse, two_threads) == distances);
+}
+
+TEST_CASE("deviation: distances of vertices report, cancel and refuse") {
+    const Mesh mesh = shapes::plane(4).mesh();
+    DeviationOptions options;
+    float last = 0;
+    options.progress = [&](float fraction) {
+        last = fraction;
+        return true;
+    };
+    decimesh::vertex_distances(mesh, mesh, options);
+    CHECK(last == 1);
+    options.progress = [](float) { return false; };
+    CHECK_THROWS_AS(decimesh::vertex_distances(mesh, mesh, options), decimesh::Cancelled);
+    CHECK_THROWS_AS(decimesh::vertex_distances(mesh, Mesh()), decimesh::Error);
+    CHECK_THROWS_AS(decimesh::vertex_distances(Mesh(), mesh), decimesh::Error);
 }
 
 TEST_SUITE_END();

@@ -269,6 +269,18 @@ TEST_CASE("errors: structs that are read may be newer if nothing in them is unkn
         auto result = calls::untouched_struct<decimesh_deviation_result>();
         return decimesh_deviation(mesh.get(), mesh.get(), raw, &result);
     });
+    check_sizes(measuring, "decimesh_deviation_options", [&](const decimesh_deviation_options *raw) {
+        std::vector<float> distances(mesh.vertex_count());
+        return decimesh_vertex_distances(mesh.get(), mesh.get(), raw, distances.data());
+    });
+    decimesh_multiple_choice_options choosing;
+    decimesh_multiple_choice_options_init(&choosing, sizeof choosing);
+    check_sizes(choosing, "decimesh_multiple_choice_options", [&](const decimesh_multiple_choice_options *raw) {
+        decimesh_mesh *made = nullptr;
+        const decimesh_status status = decimesh_multiple_choice(mesh.get(), 2, raw, &made, nullptr);
+        decimesh_mesh_destroy(made);
+        return status;
+    });
     decimesh_bound_options bounding;
     decimesh_bound_options_init(&bounding, sizeof bounding);
     check_sizes(bounding, "decimesh_bound_options", [&](const decimesh_bound_options *raw) {

@@ -53,7 +53,8 @@ TEST_CASE("progressive: every level is a mesh in prefixes and the finest is the 
     for (std::size_t step = 0; step <= progressive.steps(); step += 37) {
         const std::vector<std::uint32_t> indices = indices_at(progressive, step);
         checks::check_triangles(Span<const std::uint32_t>(indices), progressive.vertex_count(step));
-        CHECK(bytes_of(progressive.mesh(step).indices()) == bytes_of(Span<const std::uint32_t>(indices)));
+        const Mesh level = progressive.mesh(step);
+        CHECK(bytes_of(level.indices()) == bytes_of(Span<const std::uint32_t>(indices)));
         CHECK(progressive.step_within(progressive.triangle_count(step)) == step);
     }
     CHECK(progressive.triangle_count(progressive.steps()) == mesh.triangle_count());

@@ -64,7 +64,8 @@ TEST_CASE("threads: one progressive mesh has a player in each and nested levels 
     const std::vector<decimesh::Target> targets = {decimesh::Target::ratio(0.1)};
     const decimesh::NestedLevels nested = decimesh::NestedLevels::build(mesh, targets);
     std::optional<decimesh::Progressive> progressive = decimesh::Progressive::build(mesh, targets);
-    const Bytes finest = bytes_of(progressive->mesh(SIZE_MAX).indices());
+    const decimesh::Mesh whole = progressive->mesh(SIZE_MAX);
+    const Bytes finest = bytes_of(whole.indices());
     std::vector<decimesh::Player> players;
     for (std::size_t number = 0; number < thread_count; ++number) {
         players.emplace_back(*progressive);

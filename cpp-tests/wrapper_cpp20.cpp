@@ -17,6 +17,19 @@ static_assert(!std::is_convertible_v<std::span<const float>, decimesh::Stream<fl
 static_assert(std::ranges::contiguous_range<decimesh::Span<const float>>);
 static_assert(std::ranges::borrowed_range<decimesh::Span<const float>>);
 
+/// A mesh that is about to end gives no spans of itself away; a view of one that stays does.
+template <class Mesh>
+concept gives_positions = requires(Mesh &&mesh) { std::forward<Mesh>(mesh).positions(); };
+static_assert(gives_positions<decimesh::Mesh &>);
+static_assert(gives_positions<const decimesh::Mesh &>);
+static_assert(gives_positions<decimesh::MeshView>);
+static_assert(!gives_positions<decimesh::Mesh>);
+
+template <class Mesh>
+concept gives_colors = requires(Mesh &&mesh) { std::forward<Mesh>(mesh).colors(); };
+static_assert(gives_colors<decimesh::Mesh &>);
+static_assert(!gives_colors<decimesh::Mesh>);
+
 /// Levels that are about to end give no mesh away.
 template <class Levels>
 concept gives_mesh = requires(Levels &&levels) { std::forward<Levels>(levels).mesh(0); };

@@ -558,6 +558,40 @@ typedef struct decimesh_simplify_report {
 } decimesh_simplify_report;
 
 /**
+ * How to choose. decimesh_multiple_choice_options_init() sets the defaults.
+ */
+typedef struct decimesh_multiple_choice_options {
+    /**
+     * sizeof(decimesh_multiple_choice_options), as decimesh_multiple_choice_options_init sets it.
+     */
+    uint32_t struct_size;
+    /**
+     * Of how many vertices drawn at random the cheapest goes: at least 1; by default 6.
+     */
+    uint32_t candidates;
+    /**
+     * Where the random numbers start; by default 0.
+     */
+    uint64_t seed;
+    /**
+     * Indices of input vertices that stay; NULL for none.
+     */
+    const uint32_t *locked_vertices;
+    /**
+     * How many locked_vertices there are.
+     */
+    size_t locked_count;
+    /**
+     * Is told of progress, and can cancel; NULL for none.
+     */
+    decimesh_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *progress_user;
+} decimesh_multiple_choice_options;
+
+/**
  * How to measure. decimesh_deviation_options_init() sets the defaults.
  */
 typedef struct decimesh_deviation_options {
@@ -1310,6 +1344,36 @@ decimesh_status decimesh_simplify_in_place(const struct decimesh_mutable_buffers
                                            struct decimesh_simplify_report *report);
 
 /**
+ * Sets the defaults: the cheapest of six, seed 0. NULL is left alone.
+ *
+ * struct_size is sizeof(decimesh_multiple_choice_options), as the caller was compiled: no more is written.
+ */
+void decimesh_multiple_choice_options_init(struct decimesh_multiple_choice_options *options,
+                                           size_t struct_size);
+
+/**
+ * Simplifies a mesh as Jia, Tang and Pan do: time and again some vertices are drawn at random, and the one with the
+ * least visual cost goes into a neighbour. No vertex is made or moved.
+ *
+ * It is there to compare with: decimesh_simplify() with DECIMESH_PLACEMENT_EXISTING is faster and closer. At most
+ * triangles are left, this many or one fewer, unless nothing more can go before that: topology is kept, no face turns
+ * by a right angle, and where there are attributes, vertices that share their place with another stay.
+ *
+ * *simplified receives a new mesh, which the caller ends with decimesh_mesh_destroy(), without the vertices that no
+ * triangle uses. *stopped_by, if it is not NULL, receives DECIMESH_STOPPED_BY_TARGET or _STUCK. options may be NULL: the
+ * defaults. Fails with _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _OPTION (no candidates, or a locked vertex that does not
+ * exist) or _CANCELLED.
+ *
+ * Linear time, on one thread; about 115 bytes of memory a vertex. The same mesh and options give the same bytes on
+ * every machine. Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_multiple_choice(const struct decimesh_mesh *mesh,
+                                         size_t triangles,
+                                         const struct decimesh_multiple_choice_options *options,
+                                         struct decimesh_mesh **simplified,
+                                         decimesh_stopped_by *stopped_by);
+
+/**
  * Makes levels of a mesh, each from the one before: a chain costs little more than its coarsest level.
  *
  * target_values has count values, at least 1, from fine to coarse; each is what options->target_value is
@@ -1414,6 +1478,23 @@ decimesh_status decimesh_deviation(const struct decimesh_mesh *a,
                                    const struct decimesh_mesh *b,
                                    const struct decimesh_deviation_options *options,
                                    struct decimesh_deviation_result *result);
+
+/**
+ * Measures how far each vertex of one mesh is from the surface of another: the nearest point is found exactly,
+ * in double precision.
+ *
+ * distances has room for as many as from has vertices, and receives them in their order, in units of the
+ * positions; vertices that no triangle uses are measured as well. options may be NULL: the defaults; their samples and
+ * seed are not looked at. Fails with _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _EMPTY (to is without triangles),
+ * _CANCELLED or _THREADS.
+ *
+ * O(n log n) time, about 110 bytes of memory a triangle of to, more while the tree is built, and 4 a vertex of from.
+ * Any thread; progress is told on the calling one.
+ */
+decimesh_status decimesh_vertex_distances(const struct decimesh_mesh *from,
+                                          const struct decimesh_mesh *to,
+                                          const struct decimesh_deviation_options *options,
+                                          float *distances);
 
 /**
  * Sets the defaults: a tolerance of 1 %, 5000000 pieces, all threads. NULL is left alone.

@@ -377,6 +377,18 @@ struct Report {
     float attribute_error;           ///< estimated largest difference of attributes, by weight, as a length
 };
 
+/// How `multiple_choice` chooses. The defaults are the library's.
+struct MultipleChoiceOptions {
+    /// Of how many vertices drawn at random the cheapest goes, at least 1.
+    std::uint32_t candidates = 6;
+    /// Where the random numbers start.
+    std::uint64_t seed = 0;
+    /// Indices of vertices that stay.
+    std::vector<std::uint32_t> locked_vertices = {};
+    /// Hears of progress, and may cancel. Empty: nobody does.
+    Progress progress = {};
+};
+
 /// What a mesh is made of and what is wrong with it.
 struct Statistics {
     bool is_closed;                         ///< no edge is a border
@@ -524,19 +536,19 @@ public:
     std::size_t triangle_count() const noexcept { return decimesh_mesh_triangle_count(raw()); }
 
     /// x y z a vertex. This span and the next four are borrowed from the mesh and live as long as it does.
-    Span<const float> positions() const noexcept {
+    Span<const float> positions() const & noexcept {
         return {decimesh_mesh_positions(raw()), 3 * vertex_count()};
     }
     /// Three a triangle, counter-clockwise from outside.
-    Span<const std::uint32_t> indices() const noexcept {
+    Span<const std::uint32_t> indices() const & noexcept {
         return {decimesh_mesh_indices(raw()), 3 * triangle_count()};
     }
     /// x y z a vertex; empty if the mesh has no normals.
-    Span<const float> normals() const noexcept { return attribute(decimesh_mesh_normals(raw()), 3); }
+    Span<const float> normals() const & noexcept { return attribute(decimesh_mesh_normals(raw()), 3); }
     /// u v a vertex; empty if the mesh has no texture coordinates.
-    Span<const float> uvs() const noexcept { return attribute(decimesh_mesh_uvs(raw()), 2); }
+    Span<const float> uvs() const & noexcept { return attribute(decimesh_mesh_uvs(raw()), 2); }
     /// Red, green, blue, alpha a vertex; empty if the mesh has no colours.
-    Span<const std::uint8_t> colors() const noexcept { return attribute(decimesh_mesh_colors(raw()), 4); }
+    Span<const std::uint8_t> colors() const & noexcept { return attribute(decimesh_mesh_colors(raw()), 4); }
 
     /// Counts, flaws, topology and size, in n log n time.
     Statistics statistics() const;
@@ -594,6 +606,14 @@ public:
     /// The mesh of a PLY, OBJ, STL, OFF, glTF or GLB file, as the extension of `path` (UTF-8) says.
     static Mesh read(const std::string &path);
 
+    // Of a mesh that is about to go, they would be of nothing: name it first.
+    using MeshQueries::positions, MeshQueries::indices, MeshQueries::normals, MeshQueries::uvs, MeshQueries::colors;
+    Span<const float> positions() const && = delete;
+    Span<const std::uint32_t> indices() const && = delete;
+    Span<const float> normals() const && = delete;
+    Span<const float> uvs() const && = delete;
+    Span<const std::uint8_t> colors() const && = delete;
+
     /// Takes over a handle of the C interface.
     static Mesh adopt(decimesh_mesh *handle) noexcept {
         Mesh mesh;
@@ -646,6 +666,19 @@ struct Certified {
 /// At most nine times the time of `bound`: some ten to 200 microseconds a triangle. About 280 bytes a triangle of a
 /// closed mesh, and at most 120 for each of 32 parts a triangle that have to be looked at.
 Certified simplify_within(MeshView mesh, double max_error, const Options &options = {});
+
+/// What `multiple_choice` comes to.
+struct Decimated {
+    Mesh mesh;
+    StoppedBy stopped_by;   ///< `target` or `stuck`
+};
+
+/// Simplifies `mesh` to at most `triangles` as Jia, Tang and Pan do: time and again some vertices are drawn at random,
+/// and the one with the least visual cost goes into a neighbour. No vertex is made or moved, and the topology is kept.
+/// It is there to compare with: `simplify` with `Placement::existing` is faster and closer.
+///
+/// Linear time, on one thread; about 115 bytes a vertex.
+Decimated multiple_choice(MeshView mesh, std::size_t triangles, const MultipleChoiceOptions &options = {});
 
 /// What a call on the caller's own buffers leaves in them.
 struct SimplifiedIndices {
@@ -954,6 +987,11 @@ Bound bound(MeshView a, MeshView b, const BoundOptions &options = {});
 /// triangle of both.
 Deviation deviation(MeshView a, MeshView b, const DeviationOptions &options = {});
 
+/// Measures how far each vertex of `from` is from the surface of `to`, in the order of the vertices: for heat maps.
+/// Vertices that no triangle uses are measured as well. `DeviationOptions::samples` and `seed` are not looked at.
+/// n log n time; about 110 bytes a triangle of `to`.
+std::vector<float> vertex_distances(MeshView from, MeshView to, const DeviationOptions &options = {});
+
 // ---- how it is done ----
 
 namespace detail {
@@ -1123,6 +1161,24 @@ private:
     Watcher watcher_;
 };
 
+/// The struct of a call that measures distances. `options` must outlive it.
+class DeviationCall {
+public:
+    explicit DeviationCall(const DeviationOptions &options) : watcher_(options.progress) {
+        raw.threads = options.threads;
+        raw.samples = options.samples;
+        raw.seed = options.seed;
+        watcher_.attach(raw);
+    }
+
+    void check(decimesh_status status) const { watcher_.check(status); }
+
+    decimesh_deviation_options raw = sized<decimesh_deviation_options>();
+
+private:
+    Watcher watcher_;
+};
+
 /// The struct of a call that decomposes. `options` must outlive it.
 class HierarchyCall {
 public:
@@ -1258,6 +1314,22 @@ inline Simplified simplify(MeshView mesh, const Options &options) {
     Mesh result = Mesh::adopt(simplified);
     call.check(status);
     return {std::move(result), detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
+}
+
+inline Decimated multiple_choice(MeshView mesh, std::size_t triangles, const MultipleChoiceOptions &options) {
+    auto raw = detail::sized<decimesh_multiple_choice_options>();
+    raw.candidates = options.candidates;
+    raw.seed = options.seed;
+    raw.locked_vertices = options.locked_vertices.data();
+    raw.locked_count = options.locked_vertices.size();
+    detail::Watcher watcher(options.progress);
+    watcher.attach(raw);
+    decimesh_mesh *simplified = nullptr;
+    decimesh_stopped_by stopped_by = DECIMESH_STOPPED_BY_TARGET;
+    const decimesh_status status = decimesh_multiple_choice(mesh.get(), triangles, &raw, &simplified, &stopped_by);
+    Mesh result = Mesh::adopt(simplified);
+    watcher.check(status);
+    return {std::move(result), static_cast<StoppedBy>(stopped_by)};
 }
 
 inline Certified simplify_within(MeshView mesh, double max_error, const Options &options) {
@@ -1561,14 +1633,9 @@ inline Bound bound(MeshView a, MeshView b, const BoundOptions &options) {
 }
 
 inline Deviation deviation(MeshView a, MeshView b, const DeviationOptions &options) {
-    auto raw_options = detail::sized<decimesh_deviation_options>();
-    raw_options.threads = options.threads;
-    raw_options.samples = options.samples;
-    raw_options.seed = options.seed;
-    detail::Watcher watcher(options.progress);
-    watcher.attach(raw_options);
+    detail::DeviationCall call(options);
     auto raw = detail::sized<decimesh_deviation_result>();
-    watcher.check(decimesh_deviation(a.get(), b.get(), &raw_options, &raw));
+    call.check(decimesh_deviation(a.get(), b.get(), &call.raw, &raw));
     return {raw.rms,
             raw.mean,
             raw.max,
@@ -1576,6 +1643,15 @@ inline Deviation deviation(MeshView a, MeshView b, const DeviationOptions &optio
             {raw.backward_rms, raw.backward_mean, raw.backward_max},
             raw.diagonal,
             raw.normal_rms_degrees};
+}
+
+inline std::vector<float> vertex_distances(MeshView from, MeshView to, const DeviationOptions &options) {
+    detail::DeviationCall call(options);
+    // Room for nothing may be nowhere, which to C would be a pointer forgotten.
+    std::vector<float> distances(from.vertex_count() + 1);
+    call.check(decimesh_vertex_distances(from.get(), to.get(), &call.raw, distances.data()));
+    distances.pop_back();
+    return distances;
 }
 
 }   // namespace decimesh

@@ -2,11 +2,14 @@
 
 #![cfg(feature = "capi")]
 
+use std::num::NonZeroU32;
 use std::ptr;
 
 use decimesh::capi::*;
+use decimesh::deviation::vertex_distances;
 use decimesh::lod::{NestedLevels, Progressive};
 use decimesh::mesh::{Attributes, Mesh, shapes};
+use decimesh::multiple_choice::{Cost, Decimation, Selection};
 use decimesh::rate_distortion::{Decomposition, DecompositionOptions, Detail, HeightField};
 use decimesh::{
     AttributeWeights, Monitor, Options, Placement, Target, build_levels, simplify, simplify_within,
@@ -341,4 +344,39 @@ fn hierarchies_give_the_meshes_that_they_give_to_rust() {
     }
     // SAFETY: it is not used any more.
     unsafe { decimesh_hierarchy_destroy(hierarchy) };
+}
+
+#[test]
+fn multiple_choice_and_distances_of_vertices_are_those_of_rust() {
+    let mesh = shapes::bumpy_sphere(12, 1);
+    let selection =
+        Selection::MultipleChoice { candidates: NonZeroU32::new(4).expect("it is not 0"), seed: 9 };
+    let locked = [3, 77, 77];
+    let mut decimation =
+        Decimation::with_locked(&mesh, Cost::Visual, selection, &locked).expect("the vertices exist");
+    assert!(decimation.reduce_to(300, &mut Monitor::silent()).expect("nobody cancels"));
+    let (expected, _) = mesh.of_triangles(&decimation.triangles()).expect("the triangles are the mesh's");
+    let away = vertex_distances(&mesh, &expected, 1, &mut Monitor::silent()).expect("there are triangles");
+
+    let buffers = c_calls::buffers(&mesh);
+    let mut distances = vec![0.0f32; mesh.positions().len()];
+    // SAFETY: the pointers point to what the calls' comments say, and each handle is destroyed last.
+    unsafe {
+        let mut options = std::mem::zeroed::<decimesh_multiple_choice_options>();
+        decimesh_multiple_choice_options_init(&mut options, size_of::<decimesh_multiple_choice_options>());
+        (options.candidates, options.seed) = (4, 9);
+        (options.locked_vertices, options.locked_count) = (locked.as_ptr(), locked.len());
+        let (mut own, mut found, mut stopped_by) = (ptr::null_mut(), ptr::null_mut(), 77);
+        succeeded(decimesh_mesh_from_buffers(&buffers, &mut own));
+        succeeded(decimesh_multiple_choice(own, 300, &options, &mut found, &mut stopped_by));
+        assert_eq!(stopped_by, DECIMESH_STOPPED_BY_TARGET);
+        let indices =
+            std::slice::from_raw_parts(decimesh_mesh_indices(found), 3 * decimesh_mesh_triangle_count(found));
+        assert_eq!(indices, expected.triangles().as_flattened());
+        succeeded(decimesh_vertex_distances(own, found, ptr::null(), distances.as_mut_ptr()));
+        decimesh_mesh_destroy(found);
+        decimesh_mesh_destroy(own);
+    }
+    let bits = |distances: Vec<f32>| distances.into_iter().map(f32::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(distances), bits(away));
 }

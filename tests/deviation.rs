@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use decimesh::deviation::{Deviation, DeviationError, Directed, Sampling, deviation};
+use decimesh::deviation::{Deviation, DeviationError, Directed, Sampling, deviation, vertex_distances};
 use decimesh::{Mesh, Monitor};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
@@ -14,6 +14,10 @@ fn measure(a: &Mesh, b: &Mesh, samples: usize) -> Deviation {
 
 fn measure_with(a: &Mesh, b: &Mesh, sampling: &Sampling) -> Deviation {
     deviation(a, b, sampling, &mut Monitor::silent()).expect("both meshes have triangles")
+}
+
+fn of_vertices(from: &Mesh, to: &Mesh, threads: usize) -> Vec<f32> {
+    vertex_distances(from, to, threads, &mut Monitor::silent()).expect("the second mesh has triangles")
 }
 
 fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -186,6 +190,12 @@ proptest! {
             prop_assert!((found.mean - expected.mean).abs() <= tolerance, "{found:?} {expected:?}");
             prop_assert!((found.rms - expected.rms).abs() <= tolerance, "{found:?} {expected:?}");
         }
+        // Each by itself, used by a triangle or not, rounded to `f32`.
+        for (position, found) in a.positions().iter().zip(of_vertices(&a, &b, 1)) {
+            let expected = brute_distance(Vec3::from(*position).as_dvec3(), &b);
+            let rounding = f64::from(f32::EPSILON) * expected;
+            prop_assert!((f64::from(found) - expected).abs() <= tolerance + rounding, "{found} {expected}");
+        }
         // With samples, the search for most vertices ends early: never for one that is the farthest.
         let sampled = measure(&a, &b, 50);
         prop_assert!(sampled.forward.max >= expected[0].max - tolerance, "{sampled:?} {expected:?}");
@@ -344,6 +354,12 @@ fn every_number_of_threads_gives_the_same_bits() {
     for threads in [2, 3, 0, usize::MAX] {
         assert_eq!(of_threads(threads), one, "{threads} threads");
     }
+    let of_threads =
+        |threads| of_vertices(&blob(40), &b, threads).into_iter().map(f32::to_bits).collect::<Vec<_>>();
+    let one = of_threads(1);
+    for threads in [2, 0] {
+        assert_eq!(of_threads(threads), one, "{threads} threads");
+    }
 }
 
 #[test]
@@ -385,6 +401,54 @@ fn cancel_works_at_every_step() {
         assert!(matches!(ended, Err(DeviationError::Cancelled(_))), "step {step}: {ended:?}");
         assert_eq!(calls, step, "called again after the cancel");
     }
+}
+
+#[test]
+fn vertex_distances_can_be_cancelled_at_every_step() {
+    // Two batches of vertices.
+    let (many, few) = (plane(400, 200), blob(5));
+    let mut fractions = Vec::new();
+    let mut listening = Monitor::new(|fraction| {
+        fractions.push(fraction);
+        ControlFlow::Continue(())
+    });
+    vertex_distances(&many, &few, 2, &mut listening).expect("nobody cancels");
+    drop(listening);
+    assert!(fractions.is_sorted() && fractions.len() == 4, "{fractions:?}");
+    assert_eq!(fractions[3], 1.0);
+    for step in 1..=fractions.len() {
+        let mut calls = 0;
+        let mut ending = Monitor::new(|_| {
+            calls += 1;
+            if calls == step { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let ended = vertex_distances(&many, &few, 2, &mut ending);
+        drop(ending);
+        assert!(matches!(ended, Err(DeviationError::Cancelled(_))), "step {step}");
+        assert_eq!(calls, step, "called again after the cancel");
+    }
+}
+
+#[test]
+fn vertices_alone_have_distances_but_are_no_surface() {
+    let vertices_only = mesh(vec![[1.0, 2.0, 3.0]; 4], vec![]);
+    let floor = plane(4, 4);
+    assert_eq!(of_vertices(&vertices_only, &floor, 1), [3.0; 4]);
+    assert!(of_vertices(&Mesh::default(), &floor, 1).is_empty());
+    let error =
+        vertex_distances(&floor, &vertices_only, 1, &mut Monitor::silent()).expect_err("no triangles");
+    assert!(matches!(error, DeviationError::Empty { mesh: "second" }), "{error}");
+}
+
+#[test]
+fn a_vertex_far_out_leaves_the_distances_of_others_alone() {
+    let mut positions = plane(3, 3).positions().to_vec();
+    positions.iter_mut().for_each(|position| position[2] = 1e-3);
+    positions.push([1e30, -1e30, 1e30]);
+    let strayed = mesh(positions, plane(3, 3).triangles().to_vec());
+    let distances = of_vertices(&strayed, &plane(3, 3), 1);
+    assert_eq!(distances[..16], [1e-3; 16]);
+    assert!(distances[16] > 1e30 && distances[16].is_finite());
 }
 
 #[test]

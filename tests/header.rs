@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use decimesh::capi::decimesh_status_name;
 
 /// In the order in which a reader wants them.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 17] = [
     "version",
     "status",
     "progress",
@@ -19,6 +19,7 @@ const SOURCES: [&str; 16] = [
     "statistics",
     "simplify",
     "engine",
+    "multiple_choice",
     "levels",
     "deviation",
     "bound",

@@ -5,7 +5,7 @@ use super::mesh::decimesh_mesh;
 use super::progress::{decimesh_progress, monitor};
 use super::status::decimesh_status;
 use super::structs::{self, Versioned};
-use crate::deviation::{Deviation, Sampling, deviation};
+use crate::deviation::{Deviation, Sampling, deviation, vertex_distances};
 use std::ffi::c_void;
 use std::ptr;
 
@@ -163,6 +163,41 @@ pub unsafe extern "C" fn decimesh_deviation(
             let mut monitor = monitor(options.progress, options.progress_user);
             let measured = deviation((*a).mesh(), (*b).mesh(), &sampling, &mut monitor)?;
             structs::write(result, size, &measured.into());
+        }
+        Ok(())
+    })
+}
+
+/// Measures how far each vertex of one mesh is from the surface of another: the nearest point is found exactly,
+/// in double precision.
+///
+/// distances has room for as many as from has vertices, and receives them in their order, in units of the
+/// positions; vertices that no triangle uses are measured as well. options may be NULL: the defaults; their samples and
+/// seed are not looked at. Fails with _NULL, _STRUCT_SIZE, _UNKNOWN_OPTION, _EMPTY (to is without triangles),
+/// _CANCELLED or _THREADS.
+///
+/// O(n log n) time, about 110 bytes of memory a triangle of to, more while the tree is built, and 4 a vertex of from.
+/// Any thread; progress is told on the calling one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_vertex_distances(
+    from: *const decimesh_mesh,
+    to: *const decimesh_mesh,
+    options: *const decimesh_deviation_options,
+    distances: *mut f32,
+) -> decimesh_status {
+    entry!([from, to, distances] {
+        // SAFETY: none is NULL but perhaps the options, and the caller vouches for what they point to.
+        unsafe {
+            let options = match options.is_null() {
+                true => decimesh_deviation_options::initial(),
+                false => structs::read(options)?,
+            };
+            let mut monitor = monitor(options.progress, options.progress_user);
+            let threads = options.threads as usize;
+            let measured = vertex_distances((*from).mesh(), (*to).mesh(), threads, &mut monitor)?;
+            // As bytes: the caller's buffer needs no alignment.
+            let bytes = measured.len() * size_of::<f32>();
+            ptr::copy_nonoverlapping(measured.as_ptr().cast::<u8>(), distances.cast::<u8>(), bytes);
         }
         Ok(())
     })

@@ -442,7 +442,7 @@ pub(super) fn switch(option: &str, value: i32) -> Result<bool, Failure> {
 
 /// # Safety
 /// `first` points to `count` indices.
-unsafe fn read_locked(first: *const u32, count: usize) -> Result<Vec<u32>, Failure> {
+pub(super) unsafe fn read_locked(first: *const u32, count: usize) -> Result<Vec<u32>, Failure> {
     if count > u32::MAX as usize {
         let message = format!("locked_count is {count}, more than a mesh can have vertices");
         return Err(Failure::new(DECIMESH_ERROR_OPTION, message));

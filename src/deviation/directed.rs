@@ -9,13 +9,13 @@ use crate::Cancelled;
 use crate::workers::Workers;
 
 /// Points that one worker measures in one go. Fixed, as the sums are rounded block by block.
-const BLOCK: usize = 1024;
+pub(super) const BLOCK: usize = 1024;
 
 /// Blocks between two reports to the monitor.
-const BATCH: usize = 64;
+pub(super) const BATCH: usize = 64;
 
 /// Distances below this share of the largest coordinate are rounding.
-const NOISE: f64 = 1.0 / (1u64 << 44) as f64;
+pub(super) const NOISE: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// What is measured from one surface to another.
 pub(super) struct Direction<'a> {
@@ -117,7 +117,8 @@ impl<'a> Direction<'a> {
     }
 }
 
-fn pieces(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usize>> {
+/// `range`, cut every `length` places.
+pub(super) fn pieces(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usize>> {
     range.clone().step_by(length).map(move |start| start..start.saturating_add(length).min(range.end))
 }
 

@@ -1,5 +1,6 @@
 //! Measured distance between two surfaces: RMS, mean and maximum, in both directions, and how far
-//! their normals turn away from each other; and a bound on the maximum that is guaranteed ([`bound()`]).
+//! their normals turn away from each other; a bound on the maximum that is guaranteed ([`bound()`]); and
+//! the distance of each vertex ([`vertex_distances`]).
 //!
 //! The measure is that of Metro (Cignoni, Rocchini and Scopigno, "Metro: measuring error on
 //! simplified surfaces", Computer Graphics Forum 17(2), 1998): points on one surface, each to the
@@ -11,9 +12,11 @@ mod pieces;
 mod sampling;
 mod surface;
 mod triangle;
+mod vertices;
 mod within;
 
 pub use bound::{Bound, BoundOptions, bound};
+pub use vertices::vertex_distances;
 pub(crate) use within::{Apart, Reference};
 
 use directed::{Direction, Totals};
