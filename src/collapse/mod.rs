@@ -282,7 +282,7 @@ fn fold(ring: &Ring, other: u32, offset: Vec3A) -> Option<Moved> {
         let after = spokes.moved(moved);
         let areas_before = before.length_squared();
         let areas_after = after.length_squared();
-        look_away = look_away | ring.look_away(before, areas_before);
+        look_away |= ring.look_away(before, areas_before);
         let cosines = before.dot(after);
         let turned = cosines.simd_le(Numbers::ZERO)
             | (cosines * cosines).simd_lt(Numbers::splat(TURN) * areas_before * areas_after);

@@ -91,7 +91,9 @@ impl Spans {
         };
         let blocks = workers.map(faces.chunks(BLOCKS * FACE_BLOCK).collect(), of_group).concat();
         let hull = |spans: &[Range<u32>]| {
-            spans.iter().fold(NONE..0, |hull, span| hull.start.min(span.start)..hull.end.max(span.end))
+            let bounds = spans.iter().map(|span| (span.start, span.end));
+            let (start, end) = bounds.fold((NONE, 0), |(a, b), (start, end)| (a.min(start), b.max(end)));
+            start..end
         };
         Self { groups: blocks.chunks(BLOCKS).map(hull).collect(), blocks }
     }
@@ -196,7 +198,7 @@ impl SampledRings {
 
     /// The sample that is at a vertex, or the last before it.
     fn index(&self, vertex: u32) -> usize {
-        (u64::from(vertex) * self.density >> 32) as usize
+        ((u64::from(vertex) * self.density) >> 32) as usize
     }
 
     /// Whether a vertex is the first to which an index belongs.
