@@ -28,6 +28,12 @@ TEST_CASE("multiple choice: it arrives at the target with vertices of the input 
     CHECK(result.mesh.statistics().is_closed == mesh.statistics().is_closed);
     CHECK(result.mesh.uvs().empty() == mesh.uvs().empty());
     CHECK(result.mesh.colors().empty() == mesh.colors().empty());
+    REQUIRE(result.sources.size() == result.mesh.vertex_count());
+    for (std::size_t vertex = 0; vertex < result.sources.size(); ++vertex) {
+        REQUIRE(result.sources[vertex] < mesh.vertex_count());
+        const float *const was = &mesh.positions()[3 * std::size_t{result.sources[vertex]}];
+        CHECK(std::equal(was, was + 3, &result.mesh.positions()[3 * vertex]));
+    }
 }
 
 TEST_CASE("multiple choice: the seed and the candidates choose, and the same choose the same") {
@@ -50,6 +56,7 @@ TEST_CASE("multiple choice: what cannot be met says so, and what is met changes 
     const decimesh::Decimated whole = decimesh::multiple_choice(mesh, SIZE_MAX);
     CHECK(whole.stopped_by == decimesh::StoppedBy::target);
     CHECK(whole.mesh.triangle_count() == mesh.triangle_count());
+    CHECK(whole.sources.size() == mesh.vertex_count());
 }
 
 TEST_CASE("multiple choice: locked vertices stay") {
@@ -75,10 +82,13 @@ TEST_CASE("multiple choice: options that cannot be are refused, and nothing is w
     CHECK(options.seed == MultipleChoiceOptions().seed);
     decimesh_mesh *made = calls::nobody<decimesh_mesh>();
     decimesh_stopped_by stopped_by = 77;
+    std::vector<std::uint32_t> sources(mesh.vertex_count(), 77);
+    options.sources = sources.data();
     const auto refused = [&](decimesh_status status, std::initializer_list<const char *> words) {
         calls::check_refused(decimesh_multiple_choice(mesh.get(), 100, &options, &made, &stopped_by), status, words);
         CHECK(made == calls::nobody<decimesh_mesh>());
         CHECK(stopped_by == 77);
+        CHECK(std::count(sources.begin(), sources.end(), 77) == static_cast<std::ptrdiff_t>(sources.size()));
     };
     options.candidates = 0;
     refused(DECIMESH_ERROR_OPTION, {"candidates"});
@@ -93,6 +103,7 @@ TEST_CASE("multiple choice: options that cannot be are refused, and nothing is w
     options.progress = [](void *, float) { return std::int32_t{1}; };
     refused(DECIMESH_ERROR_CANCELLED, {"cancelled"});
     options.progress = nullptr;
+    options.sources = nullptr;
     CHECK(decimesh_multiple_choice(mesh.get(), 100, &options, &made, nullptr) == DECIMESH_OK);
     decimesh_mesh_destroy(made);
 }

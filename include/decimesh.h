@@ -589,6 +589,11 @@ typedef struct decimesh_multiple_choice_options {
      * Handed to progress as it is.
      */
     void *progress_user;
+    /**
+     * NULL, or room for one index a vertex of the input. It receives, for each vertex of the result, the one of the
+     * input that it is, ascending; nothing is written beyond.
+     */
+    uint32_t *sources;
 } decimesh_multiple_choice_options;
 
 /**

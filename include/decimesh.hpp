@@ -670,7 +670,8 @@ Certified simplify_within(MeshView mesh, double max_error, const Options &option
 /// What `multiple_choice` comes to.
 struct Decimated {
     Mesh mesh;
-    StoppedBy stopped_by;   ///< `target` or `stuck`
+    StoppedBy stopped_by;                  ///< `target` or `stuck`
+    std::vector<std::uint32_t> sources;    ///< for each vertex of `mesh` the one of the input that it is, ascending
 };
 
 /// Simplifies `mesh` to at most `triangles` as Jia, Tang and Pan do: time and again some vertices are drawn at random,
@@ -1324,12 +1325,15 @@ inline Decimated multiple_choice(MeshView mesh, std::size_t triangles, const Mul
     raw.locked_count = options.locked_vertices.size();
     detail::Watcher watcher(options.progress);
     watcher.attach(raw);
+    std::vector<std::uint32_t> sources(mesh.vertex_count());
+    raw.sources = sources.data();
     decimesh_mesh *simplified = nullptr;
     decimesh_stopped_by stopped_by = DECIMESH_STOPPED_BY_TARGET;
     const decimesh_status status = decimesh_multiple_choice(mesh.get(), triangles, &raw, &simplified, &stopped_by);
     Mesh result = Mesh::adopt(simplified);
     watcher.check(status);
-    return {std::move(result), static_cast<StoppedBy>(stopped_by)};
+    sources.resize(result.vertex_count());
+    return {std::move(result), static_cast<StoppedBy>(stopped_by), std::move(sources)};
 }
 
 inline Certified simplify_within(MeshView mesh, double max_error, const Options &options) {

@@ -355,17 +355,20 @@ fn multiple_choice_and_distances_of_vertices_are_those_of_rust() {
     let mut decimation =
         Decimation::with_locked(&mesh, Cost::Visual, selection, &locked).expect("the vertices exist");
     assert!(decimation.reduce_to(300, &mut Monitor::silent()).expect("nobody cancels"));
-    let (expected, _) = mesh.of_triangles(&decimation.triangles()).expect("the triangles are the mesh's");
+    let (expected, sources) =
+        mesh.of_triangles(&decimation.triangles()).expect("the triangles are the mesh's");
     let away = vertex_distances(&mesh, &expected, 1, &mut Monitor::silent()).expect("there are triangles");
 
     let buffers = c_calls::buffers(&mesh);
     let mut distances = vec![0.0f32; mesh.positions().len()];
+    let mut written = vec![u32::MAX; mesh.positions().len()];
     // SAFETY: the pointers point to what the calls' comments say, and each handle is destroyed last.
     unsafe {
         let mut options = std::mem::zeroed::<decimesh_multiple_choice_options>();
         decimesh_multiple_choice_options_init(&mut options, size_of::<decimesh_multiple_choice_options>());
         (options.candidates, options.seed) = (4, 9);
         (options.locked_vertices, options.locked_count) = (locked.as_ptr(), locked.len());
+        options.sources = written.as_mut_ptr();
         let (mut own, mut found, mut stopped_by) = (ptr::null_mut(), ptr::null_mut(), 77);
         succeeded(decimesh_mesh_from_buffers(&buffers, &mut own));
         succeeded(decimesh_multiple_choice(own, 300, &options, &mut found, &mut stopped_by));
@@ -377,6 +380,12 @@ fn multiple_choice_and_distances_of_vertices_are_those_of_rust() {
         decimesh_mesh_destroy(found);
         decimesh_mesh_destroy(own);
     }
+    let (named, rest) = written.split_at(sources.len());
+    assert_eq!(named, sources);
+    assert!(
+        rest.iter().all(|&element| element == u32::MAX),
+        "beyond the result's vertices nothing is written"
+    );
     let bits = |distances: Vec<f32>| distances.into_iter().map(f32::to_bits).collect::<Vec<_>>();
     assert_eq!(bits(distances), bits(away));
 }

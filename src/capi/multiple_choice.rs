@@ -1,5 +1,6 @@
 //! The engine of Jia, Tang and Pan.
 
+use super::buffers::write_elements;
 use super::entry::{entry, null};
 use super::mesh::decimesh_mesh;
 use super::progress::{decimesh_progress, monitor};
@@ -32,6 +33,9 @@ pub struct decimesh_multiple_choice_options {
     pub progress: decimesh_progress,
     /// Handed to progress as it is.
     pub progress_user: *mut c_void,
+    /// NULL, or room for one index a vertex of the input. It receives, for each vertex of the result, the one of the
+    /// input that it is, ascending; nothing is written beyond.
+    pub sources: *mut u32,
 }
 
 // SAFETY: repr(C); integers and pointers that leave no gap between them; a function pointer may have any
@@ -48,6 +52,7 @@ unsafe impl Versioned for decimesh_multiple_choice_options {
             locked_count: 0,
             progress: None,
             progress_user: ptr::null_mut(),
+            sources: ptr::null_mut(),
         }
     }
 }
@@ -130,10 +135,11 @@ pub unsafe extern "C" fn decimesh_multiple_choice(
             let mut monitor = monitor(options.progress, options.progress_user);
             let mut decimation = Decimation::with_locked(mesh, Cost::Visual, selection, &locked)?;
             let is_met = decimation.reduce_to(triangles, &mut monitor)?;
-            let (result, _) = mesh.of_triangles(&decimation.triangles())?;
+            let (result, sources) = mesh.of_triangles(&decimation.triangles())?;
             if !stopped_by.is_null() {
                 stopped_by.write(if is_met { DECIMESH_STOPPED_BY_TARGET } else { DECIMESH_STOPPED_BY_STUCK });
             }
+            write_elements(options.sources, &sources);
             decimesh_mesh::give(result, simplified);
         }
         Ok(())
