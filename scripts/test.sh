@@ -133,6 +133,7 @@ step "the C ABI against its record" scripts/abi.sh
 step "programs that use decimesh from outside" scripts/consumers.sh
 # With the command as it was built above: cargo would build library and command anew, each for the other's sake.
 step "the viewer" scripts/viewer.sh --command "$target/release/decimesh"
+step "the MeshLab plugin" scripts/meshlab.sh --command "$target/release/decimesh"
 step "C and C++ under sanitizers" sanitizers
 step "C and C++ under valgrind" memcheck
 echo "all checks passed in $SECONDS s"

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filters as meshlabserver runs them, on files, beside the decimesh command on the same files.
+
+Takes from the environment: MESHLABSERVER and MESHLAB_LIBRARIES (MeshLab's), PLUGIN, DECIMESH (the command), and MESH, a
+PLY file to take instead of the statue of `decimesh demo`, if it is set.
+"""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import meshlab_server as meshlab
+from meshlab_server import CHOOSE, DEVIATION, LEVELS, SIMPLIFY, Ply
+
+
+class Server(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        directory = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(directory.cleanup)
+        cls.work = Path(directory.name)
+        cls.program = meshlab.stage(cls.work / "stage", Path(os.environ["MESHLABSERVER"]),
+                                    Path(os.environ["MESHLAB_LIBRARIES"]), Path(os.environ["PLUGIN"]))
+        if os.environ.get("MESH"):
+            cls.mesh = Path(os.environ["MESH"])
+        else:
+            cls.decimesh("demo", cls.work, "--triangles", 20000, "--width", 100)
+            cls.mesh = cls.work / "statue.ply"
+        cls.faces = len(Ply(cls.mesh).faces)
+
+    @classmethod
+    def decimesh(cls, *arguments):
+        command = [os.environ["DECIMESH"], *map(str, arguments), "--quiet"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory(dir=self.work)
+        self.addCleanup(directory.cleanup)
+        self.place = Path(directory.name)
+
+    def meshlab(self, inputs, filters, *outputs):
+        """What meshlabserver answered with, and printed."""
+        script = meshlab.script(self.place / "filters.mlx", filters)
+        return meshlab.run(self.program, self.place, "-i", *inputs, "-s", script, *outputs)
+
+    def apply(self, filter_name, parameters, source=None):
+        """The mesh that a filter makes of a file."""
+        out = self.place / "out.ply"
+        done = self.meshlab([source or self.mesh], [(filter_name, parameters)], "-o", out)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return Ply(out)
+
+    def command(self, *arguments, source=None):
+        """The mesh that the command makes of a file."""
+        out = self.place / "command.ply"
+        self.decimesh("simplify", source or self.mesh, out, *arguments)
+        return Ply(out)
+
+    def refused(self, message, inputs, filter_name, parameters):
+        out = self.place / "out.ply"
+        done = self.meshlab(inputs, [(filter_name, parameters)], "-o", out)
+        # Ended by itself, not by a signal.
+        self.assertGreater(done.returncode, 0, done.stdout)
+        self.assertIn("decimesh: " + message, done.stdout)
+        self.assertFalse(out.exists())
+
+    def test_filters_are_listed_and_each_parameter_is_explained(self):
+        listed = self.place / "filters.txt"
+        meshlab.run(self.program, self.place, "-d", listed)
+        text = listed.read_text(errors="replace")
+        for name in (SIMPLIFY, CHOOSE, LEVELS, DEVIATION):
+            self.assertIn(name, text)
+            table = text.split(name + " \n")[1].split("</TABLE>")[0]
+            rows = table.split("<TR>")[1:]
+            self.assertGreater(len(rows), 5, name)
+            for row in rows:
+                self.assertNotIn("<i>  -- </i>", row)
+
+    def test_simplify_equals_the_command(self):
+        target = self.faces // 4
+        mine = self.apply(SIMPLIFY, {"TargetFaces": target})
+        self.assertLessEqual(len(mine.faces), target)
+        self.assertGreaterEqual(len(mine.faces), target - 1)
+        self.assertEqual(mine.surface(), self.command("--triangles", target).surface())
+
+    def test_ratio_equals_the_command(self):
+        mine = self.apply(SIMPLIFY, {"Target": meshlab.choice(2, 4), "Ratio": 0.1})
+        self.assertEqual(mine.surface(), self.command("--ratio", 0.1).surface())
+
+    def test_existing_vertices_equal_the_command(self):
+        mine = self.apply(SIMPLIFY, {"TargetFaces": self.faces // 4, "Placement": meshlab.choice(1, 2)})
+        self.assertEqual(mine.surface(), self.command("--triangles", self.faces // 4, "--engine", "indices").surface())
+
+    def test_multiple_choice_equals_the_command(self):
+        target = self.faces // 4
+        mine = self.apply(CHOOSE, {"TargetFaces": target})
+        theirs = self.command("--triangles", target, "--engine", "multiple-choice")
+        self.assertEqual(mine.surface(), theirs.surface())
+
+    def test_refined_equals_the_command(self):
+        mine = self.apply(SIMPLIFY, {"TargetFaces": 2000, "Refine": True, "KeepTopology": True, "Threads": 1})
+        theirs = self.command("--triangles", 2000, "--refine", "--keep-topology")
+        self.assertEqual(mine.surface(), theirs.surface())
+
+    def test_off_and_stl_are_simplified(self):
+        for extension in ("off", "stl"):
+            with self.subTest(extension):
+                source = self.place / f"mesh.{extension}"
+                self.decimesh("simplify", self.mesh, source, "--triangles", 8000)
+                mine = self.apply(SIMPLIFY, {"TargetFaces": 1000}, source)
+                self.assertIn(len(mine.faces), (999, 1000))
+                if extension == "off":
+                    self.assertEqual(mine.surface(), self.command("--triangles", 1000, source=source).surface())
+
+    def test_levels_become_layers(self):
+        for nested in (False, True):
+            with self.subTest(nested=nested):
+                outputs = [self.place / f"level{level}-{nested}.ply" for level in range(4)]
+                saved = [word for level, out in enumerate(outputs) for word in ("-o", out, "-l", level)]
+                done = self.meshlab([self.mesh], [(LEVELS, {"Levels": 3, "Ratio": 0.5, "Nested": nested})], *saved)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                counts = [len(Ply(out).faces) for out in outputs]
+                self.assertEqual(counts[0], self.faces)
+                for level in (1, 2, 3):
+                    self.assertIn(self.faces // 2**level - counts[level], (0, 1))
+                self.assertIn("level 3: ", done.stdout)
+
+    def test_deviation_becomes_quality(self):
+        coarse = self.place / "coarse.ply"
+        self.decimesh("simplify", self.mesh, coarse, "--triangles", 1000)
+        out = self.place / "out.ply"
+        done = self.meshlab([self.mesh, coarse], [(DEVIATION, {"Reference": meshlab.layer(0)})],
+                            "-o", out, "-l", 1, "-m", "vq")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        qualities = Ply(out).vertices["quality"]
+        self.assertGreater(max(qualities), 0)
+        self.assertIn("both surfaces: RMS ", done.stdout)
+
+    def test_what_fails_says_so(self):
+        points = self.place / "points.ply"
+        points.write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                          "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n")
+        self.refused("the layer has no faces", [points], SIMPLIFY, {"TargetFaces": 1})
+        self.refused("the layer has no faces", [points], CHOOSE, {"TargetFaces": 1})
+        self.refused("the layer has no faces", [points], LEVELS, {})
+        self.refused("the layer that distances are from has no faces", [points], DEVIATION, {})
+        self.refused("no face is selected", [self.mesh], SIMPLIFY, {"SelectedFaces": True})
+        self.refused("TargetFaces is -1, and must not be negative", [self.mesh], SIMPLIFY, {"TargetFaces": -1})
+        self.refused("Certify is for a distance as the target", [self.mesh], SIMPLIFY, {"Certify": True})
+        self.refused("the ratio of levels must be", [self.mesh], LEVELS, {"Ratio": 1.5})
+
+    def test_a_target_above_the_size_leaves_the_mesh(self):
+        mine = self.apply(SIMPLIFY, {"TargetFaces": 10 * self.faces})
+        self.assertEqual(mine.surface(), Ply(self.mesh).surface())
+
+
+if __name__ == "__main__":
+    unittest.main()

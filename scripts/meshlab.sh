@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# Builds MeshLab's plugin (plugins/meshlab/) against an installed decimesh and runs its tests: in MeshLab's own
+# meshlabserver, under Xvfb, in a copy of its tree. What Debian has to give is installed where it may be; MeshLab's
+# sources, which have the headers, are fetched from where apt fetches packages.
+#
+#   scripts/meshlab.sh [--prefix PREFIX] [--command FILE] [--out DIR] [--cache DIR] [--pictures]
+#
+#   --prefix PREFIX  decimesh is installed there; without it, it is built, and installed beside the plugin
+#   --command FILE   the decimesh command of the same version, which makes meshes to test with, and whose results are
+#                    compared with the plugin's; without it, it is built
+#   --out DIR        leave the plugin there (libfilter_decimesh.so); without it, nothing is left
+#   --cache DIR      where MeshLab's sources are, or are to be left; otherwise a directory of the user's cache
+#   --pictures       write the picture of docs/meshlab.md anew
+#
+# Needs cargo, unless a prefix and a command are given.
+set -euo pipefail
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+prefix=
+command=
+out=$work/meshlab
+pictures=
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/decimesh
+while [ $# -gt 0 ]; do
+    case $1 in
+    --prefix) prefix=$(realpath "$2"); shift 2 ;;
+    --command) command=$(realpath "$2"); shift 2 ;;
+    --out) mkdir -p "$2"; out=$(realpath "$2"); shift 2 ;;
+    --cache) cache=$2; shift 2 ;;
+    --pictures) pictures=yes; shift ;;
+    *) echo "meshlab: there is no option $1" >&2; exit 2 ;;
+    esac
+done
+mkdir -p "$cache"
+cache=$(realpath "$cache")
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+target=${CARGO_TARGET_DIR:-$PWD/target}
+
+say() {
+    echo "meshlab: $*"
+}
+
+quietly() {
+    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; say "failed: $*" >&2; exit 1; }
+}
+
+packages=(meshlab g++ cmake ninja-build doctest-dev python3 dpkg-dev
+    qtbase5-dev libqt5opengl5-dev libeigen3-dev libglew-dev
+    xvfb xauth libgl1-mesa-dri)
+if ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
+    say "installing what Debian has"
+    quietly apt-get update -q
+    DEBIAN_FRONTEND=noninteractive quietly apt-get install -y -q --no-install-recommends "${packages[@]}"
+fi
+
+# MeshLab's sources, of the version that is installed. apt is asked for sources from where it has packages from, in a
+# configuration and a state of its own: the machine's stay as they are.
+fetch_sources() {
+    local version=$1 apt=$work/apt
+    mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial" "$apt/none"
+    apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' \
+        'Created-By: Packages' 'Origin: Debian' | sort -u >"$apt/sources.list"
+    local apart=(-q -o "Dir::Etc::SourceList=$apt/sources.list" -o "Dir::Etc::SourceParts=$apt/none"
+        -o "Dir::State::Lists=$apt/lists" -o "Dir::Cache=$apt/cache" -o "APT::Sandbox::User=$(id -un)")
+    quietly apt-get "${apart[@]}" update
+    (cd "$apt" && quietly apt-get "${apart[@]}" source --download-only "meshlab=$version")
+    quietly dpkg-source -x "$apt"/meshlab_*.dsc "$apt/meshlab"
+    # Whole or not at all, for the next run takes what is there.
+    rm -rf "$sources.new"
+    cp -r "$apt/meshlab" "$sources.new"
+    mv "$sources.new" "$sources"
+}
+
+version=$(dpkg-query -W -f '${source:Version}' meshlab)
+sources=$cache/meshlab-$version
+if [ ! -d "$sources" ]; then
+    say "fetching the sources of MeshLab $version"
+    fetch_sources "$version"
+fi
+
+if [ -z "$prefix" ]; then
+    say "building and installing decimesh"
+    prefix=$out/decimesh
+    quietly cmake -S . -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_LIBDIR=lib \
+        -DDECIMESH_BUILD_TESTS=OFF -DDECIMESH_BUILD_EXAMPLES=OFF "-DDECIMESH_CARGO_TARGET_DIR=$target"
+    quietly cmake --build "$work/build"
+    quietly cmake --install "$work/build" --prefix "$prefix"
+fi
+if [ -z "$command" ]; then
+    quietly cargo build --locked --release -p decimesh-cli --target-dir "$target"
+    command=$target/release/decimesh
+fi
+
+say "building the plugin"
+quietly cmake -S plugins/meshlab -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=$prefix" \
+    "-DMESHLAB_SOURCE=$sources" "-DMESHLAB_PLUGIN_DECIMESH_COMMAND=$command" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
+quietly cmake --build "$out"
+
+say "its tests"
+quietly ctest --test-dir "$out" --output-on-failure --no-tests=error -j 2
+grep 'tests passed' "$work/log"
+
+if [ -n "$pictures" ]; then
+    mkdir -p docs/images
+    cp "$out"/tests/meshlab-*.png docs/images/
+    say "the picture is in docs/images"
+fi
+say "all well in $SECONDS s"
