@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -124,25 +123,9 @@ Reduced simplify(const Part &part, const Simplification &simplification, std::op
 
 Reduced choose(const Part &part, std::size_t faces, decimesh::MultipleChoiceOptions options) {
     options.locked_vertices.insert(options.locked_vertices.end(), part.kept.begin(), part.kept.end());
-    // The engine does not say which vertices are left, but it carries colours along as they are, and does not go by
-    // them: 32 bits that say it. That there are attributes at all makes it leave vertices at one place alone, and so
-    // no seam opens.
-    std::vector<std::uint8_t> names(4 * part.vertices.size());
-    for (std::uint32_t vertex = 0; vertex < part.vertices.size(); ++vertex) {
-        std::memcpy(&names[4 * std::size_t{vertex}], &vertex, sizeof vertex);
-    }
-    decimesh::Buffers<> buffers;
-    buffers.positions = part.positions;
-    buffers.indices = part.indices;
-    buffers.colors = names;
     const decimesh::Decimated result =
-        decimesh::multiple_choice(decimesh::Mesh::from_buffers(buffers), faces, options);
-
-    std::vector<std::uint32_t> sources(result.mesh.vertex_count());
-    if (!sources.empty()) {
-        std::memcpy(sources.data(), result.mesh.colors().data(), sources.size() * sizeof(std::uint32_t));
-    }
-    return {unmoved(part, sources, result.mesh.indices(), {}),
+        decimesh::multiple_choice(decimesh::Mesh::from_buffers(buffers_of(part)), faces, options);
+    return {unmoved(part, result.sources, result.mesh.indices(), {}),
             counts(part, result.mesh.triangle_count()) + complaint(result.stopped_by)};
 }
 
