@@ -302,7 +302,8 @@ enum class StoppedBy : decimesh_stopped_by {
     stuck = DECIMESH_STOPPED_BY_STUCK,     ///< every further collapse is forbidden by topology, locks or folds
 };
 
-/// What a vertex may do: bits of `Options::vertex_flags`.
+/// What a vertex may do: bits of `Options::vertex_flags`. The last two are for `Placement::existing`; otherwise they
+/// change nothing.
 namespace vertex_flag {
 /// It stays, bit for bit.
 inline constexpr std::uint8_t lock = DECIMESH_VERTEX_LOCK;

@@ -10,7 +10,7 @@
 #                    compared with the plugin's; without it, it is built
 #   --out DIR        leave the plugin there (libfilter_decimesh.so); without it, nothing is left
 #   --cache DIR      where MeshLab's sources are, or are to be left; otherwise a directory of the user's cache
-#   --pictures       write the picture of docs/meshlab.md anew
+#   --pictures       write the pictures of docs/meshlab.md anew
 #
 # Needs cargo, unless a prefix and a command are given.
 set -euo pipefail
@@ -106,6 +106,6 @@ grep 'tests passed' "$work/log"
 if [ -n "$pictures" ]; then
     mkdir -p docs/images
     cp "$out"/tests/meshlab-*.png docs/images/
-    say "the picture is in docs/images"
+    say "the pictures are in docs/images"
 fi
 say "all well in $SECONDS s"

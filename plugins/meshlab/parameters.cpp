@@ -53,9 +53,9 @@ double as_typed(float number) {
 void add_scope(const CMeshO &layer, RichParameterList &parameters) {
     parameters.addParam(RichEnum(
         "Normals", 0, {"Carry over", "Make anew of the faces"}, "Normals of vertices",
-        "Carried over, they stay where vertices do and are interpolated where vertices move; vertices at one place count "
-        "as a seam, for their normals may differ. Made anew, they are as other filters of MeshLab leave them, on the "
-        "whole layer."));
+        "Carried over, they stay where vertices do and are interpolated where vertices move; vertices at one place "
+        "count as a seam, for their normals may differ. Made anew, they are as other filters of MeshLab leave them, "
+        "on the whole layer."));
     parameters.addParam(RichBool(
         "SelectedFaces", count_selected_faces(layer) > 0, "Only selected faces",
         "Simplify the selected faces alone. All others stay as they are, and so does the border of the selection: no "
@@ -73,28 +73,29 @@ Scope read_scope(const RichParameterList &parameters) {
 void add_engine(RichParameterList &parameters) {
     parameters.addParam(RichBool(
         "KeepTopology", false, "Keep the topology",
-        "Holes, handles and components stay, even if the target is missed. Otherwise they are kept as long as the target "
-        "can be met so, and the log says if they were not."));
+        "Holes, handles and components stay, even if the target is missed. Otherwise they are kept as long as the "
+        "target can be met so, and the log says if they were not."));
     parameters.addParam(
         RichBool("LockBoundary", false, "Keep the border", "Vertices of the border of the surface stay, bit for bit."));
     parameters.addParam(RichBool(
         "KeepSeams", true, "Keep seams closed",
-        "Where several vertices are at one place, and where texture coordinates of wedges differ, no crack opens: vertices "
-        "there stay if new ones go where the error is least, and go along their seam together if not. Without this, the "
-        "sides of a seam may part."));
+        "Where several vertices are at one place, and where texture coordinates of wedges differ, no crack opens: "
+        "vertices there stay if new ones go where the error is least, and go along their seam together if not. "
+        "Without this, the sides of a seam may part."));
     parameters.addParam(RichBool(
         "CrossSeams", false, "Go across seams",
-        "If new vertices go where there are vertices: they may go across seams too, where the attributes allow it by their "
-        "weights; the surface stays closed. For meshes of many small charts, and for faceted ones."));
+        "If new vertices go where there are vertices: they may go across seams too, where the attributes allow it by "
+        "their weights; the surface stays closed. For meshes of many small charts, and for faceted ones."));
     parameters.addParam(RichBool(
         "Refine", false, "Refine in the end",
-        "If new vertices go where the error is least: move vertices and turn edges in the end, so that the surface is "
-        "nearer to the original. The RMS distance falls by 6 to 10 %; the largest one may rise. Up to four times as long."));
+        "If new vertices go where the error is least: move vertices and turn edges in the end, so that the surface "
+        "is nearer to the original. The RMS distance falls by 6 to 10 %; the largest one may rise. Up to four times "
+        "as long."));
     const auto add_weight = [&parameters](const char *name, const char *description, const char *of) {
         parameters.addParam(RichFloat(
             name, 0, description,
-            QString("If new vertices go where there are vertices: what a difference of 1 in %1 weighs, beside a distance "
-                    "as long as the longest side of the bounding box. 0: it does not count.")
+            QString("If new vertices go where there are vertices: what a difference of 1 in %1 weighs, beside a "
+                    "distance as long as the longest side of the bounding box. 0: it does not count.")
                 .arg(of)));
     };
     add_weight("NormalWeight", "Weight of normals", "each coordinate of normals");
@@ -102,16 +103,16 @@ void add_engine(RichParameterList &parameters) {
     add_weight("ColorWeight", "Weight of colours", "each channel of colours, from none to full,");
     parameters.addParam(RichEnum(
         "Selection", 0, {"Sampled threshold", "Replacement selection"}, "Which edges collapse in a pass",
-        "Sampled threshold: all that cost less than a sampled quantile, the best and fastest. Replacement selection: those "
-        "that leave a small heap first, as Chen et al. have it."));
+        "Sampled threshold: all that cost less than a sampled quantile, the best and fastest. Replacement selection: "
+        "those that leave a small heap first, as Chen et al. have it."));
     parameters.addParam(RichInt("HeapRecords", 15, "Size of the heap",
                                 "Of replacement selection: how many edges compete. At least 1."));
     parameters.addParam(RichEnum(
         "SelectedVertices", 0,
         {"Are like others", "Stay as they are", "Go along seams only", "Are kept as long as others can go"},
         "Vertices that are selected",
-        "Stay as they are: bit for bit. Go along seams only: whatever else seams may do. Are kept as long as others can "
-        "go: they cost a hundred times as much."));
+        "Stay as they are: bit for bit. If new vertices go where there are vertices, also: go along seams only, whatever "
+        "else seams may do; or are kept as long as others can go: they cost a hundred times as much."));
     parameters.addParam(RichInt("Threads", 0, "Threads",
                                 "How many threads work; 0: as many as the machine has. The result is the same."));
 }
@@ -158,8 +159,8 @@ void add_simplify_parameters(const CMeshO &layer, RichParameterList &parameters)
     const float diagonal = layer.bbox.IsNull() ? 1 : layer.bbox.Diag();
     parameters.addParam(RichEnum(
         "Target", to_faces, {"Number of faces", "Number of vertices", "Part of the faces", "Distance"}, "Simplify to",
-        "Which of the four below is the target. If it cannot be met, the result is as small as the other options allow, "
-        "and the log says why."));
+        "Which of the four below is the target. If it cannot be met, the result is as small as the other options "
+        "allow, and the log says why."));
     parameters.addParam(RichInt("TargetFaces", half_of_faces(layer), "Number of faces",
                                 "At most so many faces are left: this number or one fewer."));
     parameters.addParam(RichInt("TargetVertices", layer.vn / 2, "Number of vertices",
@@ -170,12 +171,12 @@ void add_simplify_parameters(const CMeshO &layer, RichParameterList &parameters)
         "As few faces are left as a distance of this much from the original allows: estimated, unless it is proven."));
     parameters.addParam(RichBool(
         "Certify", false, "Prove the distance",
-        "If the target is a distance: no point of either surface is farther from the other, proven. It keeps the topology, "
-        "and takes 10 to 140 times as long."));
+        "If the target is a distance: no point of either surface is farther from the other, proven. It keeps the "
+        "topology, and takes 10 to 140 times as long."));
     parameters.addParam(RichEnum(
         "Placement", 0, {"Where the error is least", "Where there are vertices"}, "New vertices go",
-        "Where the error is least, a vertex that two become is put there. Where there are vertices, it is one of the two: "
-        "none is made or moved, and attributes count by their weights. That makes 1.3 to 2 times the error."));
+        "Where the error is least, a vertex that two become is put there. Where there are vertices, it is one of the "
+        "two: none is made or moved, and attributes count by their weights. That makes 1.3 to 2 times the error."));
     add_engine(parameters);
     add_scope(layer, parameters);
 }
@@ -222,13 +223,14 @@ ChooseRequest read_choose_parameters(const RichParameterList &parameters) {
 }
 
 void add_levels_parameters(const CMeshO &layer, RichParameterList &parameters) {
-    parameters.addParam(RichInt("Levels", 4, "How many levels", "Each becomes a layer. The original stays. At least 1."));
+    parameters.addParam(
+        RichInt("Levels", 4, "How many levels", "Each becomes a layer. The original stays. At least 1."));
     parameters.addParam(RichFloat("Ratio", 0.5F, "From level to level",
                                   "Each level has this part of the faces of the one before: above 0 and below 1."));
     parameters.addParam(RichBool(
         "Nested", false, "On the vertices that there are",
-        "All levels are made of vertices of the original, and each of vertices of the one before, so that they can share "
-        "one vertex buffer. Otherwise each level has vertices of its own, where its error is least."));
+        "All levels are made of vertices of the original, and each of vertices of the one before, so that they can "
+        "share one vertex buffer. Otherwise each level has vertices of its own, where its error is least."));
     parameters.addParam(RichBool(
         "Certify", false, "Prove the distances",
         "Of levels on the vertices that there are: the log has the largest distance of each from the original as it is "
@@ -264,15 +266,15 @@ void add_deviation_parameters(MeshDocument &document, RichParameterList &paramet
     MeshDocument *const project = reference == nullptr ? nullptr : &document;
     parameters.addParam(RichMesh(
         "Reference", reference, project, "Distance from the layer",
-        "Each vertex of the current layer gets its distance from the surface of this one as its quality, in the units of "
-        "the positions. Both layers are taken where they stand, by their matrices."));
+        "Each vertex of the current layer gets its distance from the surface of this one as its quality, in the "
+        "units of the positions. Both layers are taken where they stand, by their matrices."));
     parameters.addParam(RichInt("Samples", 500000, "Samples",
-                                "Points on each surface, for the distances of both surfaces that the log has: RMS, mean "
-                                "and largest."));
+                                "Points on each surface, for the distances of both surfaces that the log has: RMS, "
+                                "mean and largest."));
     parameters.addParam(RichInt("Seed", 0, "Seed", "Chooses the points: the same seed gives the same result."));
     parameters.addParam(RichBool("Bound", false, "Prove the largest distance",
-                                 "Bounds the largest distance over all points of both surfaces, not over samples. Takes "
-                                 "longer."));
+                                 "Bounds the largest distance over all points of both surfaces, not over samples. "
+                                 "Takes longer."));
     parameters.addParam(RichFloat("Tolerance", 0.01F, "Tolerance of the proof",
                                   "How far above the lower bound the upper may be, as a part of it. Not negative."));
     parameters.addParam(RichInt("Pieces", 5000000, "Pieces of the proof",

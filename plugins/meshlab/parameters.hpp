@@ -52,8 +52,8 @@ void add_choose_parameters(const CMeshO &layer, RichParameterList &parameters);
 void add_levels_parameters(const CMeshO &layer, RichParameterList &parameters);
 void add_deviation_parameters(MeshDocument &document, RichParameterList &parameters);
 
-/// Read them. They throw `std::invalid_argument`, which names the parameter, for what can be no such option whatever the
-/// mesh; the rest is for decimesh to say.
+/// Read them. They throw `std::invalid_argument`, which names the parameter, for what can be no such option whatever
+/// the mesh; the rest is for decimesh to say.
 SimplifyRequest read_simplify_parameters(const RichParameterList &parameters);
 ChooseRequest read_choose_parameters(const RichParameterList &parameters);
 LevelsRequest read_levels_parameters(const RichParameterList &parameters);

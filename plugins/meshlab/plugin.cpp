@@ -92,13 +92,13 @@ QString DecimeshPlugin::filterInfo(FilterIDType filter) const {
                "After <i>Chen, Fahn, Tsai, Chen and Lin</i>: "
                "<b>\"A Linear Time Algorithm for High Quality Mesh Simplification\"</b>";
     case choose:
-        return "Simplifies the layer, or its selected faces, by collapsing vertices into others: none is made or moved, and "
-               "each keeps its attributes. Topology and seams are kept. <i>decimesh: simplify (HQMS)</i>, with new vertices "
-               "where there are vertices, is faster and closer; this one is there to compare with.<br>"
+        return "Simplifies the layer, or its selected faces, by collapsing vertices into others: none is made or moved, "
+               "and each keeps its attributes. Topology and seams are kept. <i>decimesh: simplify (HQMS)</i>, with new "
+               "vertices where there are vertices, is faster and closer; this one is there to compare with.<br>"
                "After <i>Jia, Tang and Pan</i>: <b>\"Fast Mesh Simplification Algorithm Based on Edge Collapse\"</b>";
     case levels:
-        return "Makes ever coarser levels of the layer, or of its selected faces, each as a new layer. The log says how far "
-               "each is from the original.";
+        return "Makes ever coarser levels of the layer, or of its selected faces, each as a new layer. The log says how "
+               "far each is from the original.";
     case deviation:
         return "Measures how far each vertex of the current layer is from the surface of another, as its quality: "
                "<i>Colorize by vertex Quality</i> shows it. The log has the distances of both surfaces from each other.";

@@ -54,7 +54,8 @@ decimesh::Options options_for(const Part &part, const Simplification &simplifica
 }
 
 const char *complaint(decimesh::StoppedBy stopped_by) {
-    return stopped_by == decimesh::StoppedBy::stuck ? "; no more can go: topology, seams, locks or folds forbid it" : "";
+    return stopped_by == decimesh::StoppedBy::stuck ? "; no more can go: topology, seams, locks or folds forbid it"
+                                                    : "";
 }
 
 std::string counts(const Part &part, std::size_t faces) {

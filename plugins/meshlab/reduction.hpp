@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// All calls of decimesh: parts of layers are simplified, and layers measured.
 ///
-/// What fails throws what decimesh throws (`decimesh::Error`, `std::invalid_argument`); nothing of the caller's changes.
+/// What fails throws what decimesh throws (`decimesh::Error`, `std::invalid_argument`); nothing of the caller's
+/// changes.
 
 #ifndef DECIMESH_MESHLAB_REDUCTION_HPP
 #define DECIMESH_MESHLAB_REDUCTION_HPP
@@ -68,8 +69,9 @@ struct Distances {
     std::string summary;
 };
 
-/// Measures how far `from` is from `to`: each vertex, and, where `from` has faces, both surfaces from each other. Throws
-/// `std::invalid_argument` if `to` has no faces.
+/// Measures how far `from` is from `to`: each vertex, and, where `from` has faces, both surfaces from each other.
+///
+/// Throws `std::invalid_argument` if `to` has no faces.
 Distances measure(const Placed &from, const Placed &to, const Measurement &measurement);
 
 }   // namespace meshlab_plugin

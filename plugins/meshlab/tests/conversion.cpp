@@ -185,6 +185,26 @@ TEST_CASE("seams may part where that is wished for, and vertices are made for it
     CHECK(with.mesh.fn <= 230);
 }
 
+TEST_CASE("selected vertices go along seams alone where that is asked for, though others may go across") {
+    Document with;
+    layers::add_bumps(with.mesh, 24);
+    add_charts(with.layer, 8, 1);
+    for (CVertexO &vertex : with.mesh.vert) {
+        vertex.SetS();
+    }
+    Attributes attributes;
+    attributes.wedge_uvs = true;
+    const Part part = take(with.mesh, Extent::all_faces, attributes);
+    Simplification simplification = to_ratio(0.05);
+    simplification.options.placement = decimesh::Placement::existing;
+    simplification.options.topology = decimesh::Topology::keep;
+    const std::vector<std::uint32_t> along = simplify(part, simplification).replacement.indices;
+    simplification.options.cross_seams = true;
+    CHECK(simplify(part, simplification).replacement.indices != along);
+    simplification.selection = VertexSelection::along_seams;
+    CHECK(simplify(part, simplification).replacement.indices == along);
+}
+
 TEST_CASE("outside of a selection nothing changes, and its border does not crack") {
     for (std::uint32_t seed = 0; seed < 24; ++seed) {
         CAPTURE(seed);
@@ -210,8 +230,8 @@ TEST_CASE("outside of a selection nothing changes, and its border does not crack
         if (engine == 1) {
             simplification.options.placement = decimesh::Placement::existing;
         }
-        const Replacement replacement =
-            engine == 2 ? choose(part, part.faces.size() / 10, {}).replacement : simplify(part, simplification).replacement;
+        const Replacement replacement = engine == 2 ? choose(part, part.faces.size() / 10, {}).replacement
+                                                    : simplify(part, simplification).replacement;
         put(with.mesh, part, replacement, true);
 
         layers::check_sound(with.mesh);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include <QPluginLoader>
@@ -131,7 +132,8 @@ TEST_CASE("vertices that are not moved keep all they have") {
             vertex.Q() = static_cast<float>(number);
             vertex.T().u() = static_cast<float>(number);
             vertex.T().v() = 0;
-            vertex.C() = vcg::Color4b(static_cast<unsigned char>(number), static_cast<unsigned char>(number / 256), 7, 9);
+            vertex.C() =
+                vcg::Color4b(static_cast<unsigned char>(number), static_cast<unsigned char>(number / 256), 7, 9);
             ++number;
         }
         RichParameterList parameters = defaults(filter, document);
@@ -147,6 +149,52 @@ TEST_CASE("vertices that are not moved keep all they have") {
             CHECK(vertex.cC()[0] == static_cast<unsigned char>(was));
             CHECK(vertex.cC()[1] == static_cast<unsigned char>(was / 256));
         }
+    }
+}
+
+TEST_CASE("selected vertices stay where that is asked for, and are like others where not") {
+    // How many of the selected ones are left, bit for bit.
+    const auto survivors = [](const char *filter, const char *parameter, const Value &value, bool existing = false) {
+        MeshDocument document;
+        CMeshO &mesh = add_torus(document, 30).cm;
+        std::set<layers::Bits> selected;
+        for (std::size_t vertex = 0; vertex < mesh.vert.size(); vertex += 6) {
+            mesh.vert[vertex].SetS();
+            selected.insert(layers::bits(mesh.vert[vertex].cP()));
+        }
+        REQUIRE(selected.size() == 150);
+        RichParameterList parameters = defaults(filter, document);
+        parameters.setValue("TargetFaces", IntValue(450));
+        parameters.setValue(parameter, value);
+        if (existing) {
+            parameters.setValue("Placement", EnumValue(1));
+        }
+        CHECK(apply(filter, document, parameters));
+        std::size_t found = 0;
+        for (const CVertexO &vertex : mesh.vert) {
+            found += selected.count(layers::bits(vertex.cP()));
+        }
+        return found;
+    };
+    CHECK(survivors(names[0], "SelectedVertices", EnumValue(0)) < 75);
+    CHECK(survivors(names[0], "SelectedVertices", EnumValue(1)) == 150);
+    CHECK(survivors(names[0], "SelectedVertices", EnumValue(0), true) < 75);
+    CHECK(survivors(names[0], "SelectedVertices", EnumValue(3), true) > 100);
+    CHECK(survivors(names[1], "LockSelectedVertices", BoolValue(false)) < 75);
+    CHECK(survivors(names[1], "LockSelectedVertices", BoolValue(true)) == 150);
+}
+
+TEST_CASE("normals are made anew of the faces where that is asked for, and carried over where not") {
+    for (const int choice : {0, 1}) {
+        CAPTURE(choice);
+        MeshDocument document;
+        MeshModel &layer = add_torus(document);
+        RichParameterList parameters = defaults(names[0], document);
+        parameters.setValue("Normals", EnumValue(choice));
+        CHECK(apply(names[0], document, parameters));
+        const layers::Snapshot left = layers::snapshot(document);
+        layer.UpdateBoxAndNormals();
+        CHECK((layers::snapshot(document).normals == left.normals) == (choice == 1));
     }
 }
 

@@ -5,6 +5,7 @@ MeshLab looks for plugins beside its program. So that no test needs root, or cha
 copied into a tree whose plugins are links to MeshLab's own, and ours.
 """
 
+import collections
 import os
 import shutil
 import struct
@@ -16,6 +17,8 @@ SIMPLIFY = "decimesh: simplify (HQMS)"
 CHOOSE = "decimesh: simplify keeping vertices (multiple choice)"
 LEVELS = "decimesh: levels of detail"
 DEVIATION = "decimesh: deviation"
+# MeshLab's own.
+SELECT = "Conditional Face Selection"
 
 # Seconds. It takes some to load its plugins.
 PATIENCE = 120
@@ -73,12 +76,13 @@ ENGINE = {"KeepTopology": False, "LockBoundary": False, "KeepSeams": True, "Cros
           "SelectedVertices": choice(0, 4), "Threads": 0}
 SCOPE = {"Normals": choice(0, 2), "SelectedFaces": False}
 DEFAULTS = {
-    SIMPLIFY: {"Target": choice(0, 4), "TargetFaces": 1000, "TargetVertices": 500, "Ratio": 0.5, "MaxError": length(0.01),
-               "Certify": False, "Placement": choice(0, 2), **ENGINE, **SCOPE},
+    SIMPLIFY: {"Target": choice(0, 4), "TargetFaces": 1000, "TargetVertices": 500, "Ratio": 0.5,
+               "MaxError": length(0.01), "Certify": False, "Placement": choice(0, 2), **ENGINE, **SCOPE},
     CHOOSE: {"TargetFaces": 1000, "Candidates": 6, "Seed": 0, "LockSelectedVertices": False, **SCOPE},
     LEVELS: {"Levels": 4, "Ratio": 0.5, "Nested": False, "Certify": False, **ENGINE, **SCOPE},
     DEVIATION: {"Reference": layer(0), "Samples": 20000, "Seed": 0, "Bound": False, "Tolerance": 0.01,
                 "Pieces": 5000000, "Threads": 0},
+    SELECT: {},
 }
 
 
@@ -108,7 +112,7 @@ class Ply:
             elif words[0] == "property":
                 elements[-1][2].append(words[1:])
         self.offset = 0
-        self.vertices, self.faces, self.wedges = {}, [], []
+        self.vertices, self.faces, self.wedges, self.textures = {}, [], [], []
         for name, count, properties in elements:
             if name == "vertex":
                 self._read_vertices(count, properties)
@@ -129,20 +133,44 @@ class Ply:
                     values = self._take(f"{size}{self.TYPES[words[2]]}")
                     (self.faces if words[3].startswith("vertex_ind") else self.wedges).append(values)
                 else:
-                    self._take(self.TYPES[words[0]])
+                    (value,) = self._take(self.TYPES[words[0]])
+                    if words[1] == "texnumber":
+                        self.textures.append(value)
 
     def _take(self, form):
         values = struct.unpack_from("<" + form, self.body, self.offset)
         self.offset += struct.calcsize("<" + form)
         return values
 
-    def surface(self) -> list:
-        """The faces by the places of their corners, bit for bit: the same for the same mesh, however it is numbered."""
-        places = list(zip(*(self.vertices[axis] for axis in "xyz")))
+    def places(self) -> list:
+        return list(zip(*(self.vertices[axis] for axis in "xyz")))
+
+    def surface(self, is_wanted=lambda places: True) -> list:
+        """The faces by the places of their corners, bit for bit: the same for the same mesh, however it is numbered.
+
+        Of those alone for whose places, in their order, is_wanted.
+        """
+        places = self.places()
         corners = [struct.pack("<3f", *place) for place in places]
         faces = []
         for face in self.faces:
-            found = [corners[vertex] for vertex in face]
-            first = found.index(min(found))
-            faces.append(tuple(found[first:] + found[:first]))
+            if is_wanted([places[vertex] for vertex in face]):
+                found = [corners[vertex] for vertex in face]
+                first = found.index(min(found))
+                faces.append(tuple(found[first:] + found[:first]))
         return sorted(faces)
+
+    def edges(self) -> collections.Counter:
+        """How many faces are at each edge, by its vertices."""
+        return collections.Counter(tuple(sorted((face[corner - 1], face[corner]))) for face in self.faces
+                                   for corner in range(3))
+
+    def write(self, path: Path, color_at):
+        """Writes places and faces, and for each vertex the colour of its place: red, green, blue, alpha."""
+        header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(self.vertices['x'])}",
+                  *(f"property float {axis}" for axis in "xyz"),
+                  *(f"property uchar {channel}" for channel in ("red", "green", "blue", "alpha")),
+                  f"element face {len(self.faces)}", "property list uchar int vertex_indices", "end_header\n"]
+        rows = [struct.pack("<3f4B", *place, *color_at(place)) for place in self.places()]
+        rows += [struct.pack("<B3i", 3, *face) for face in self.faces]
+        path.write_bytes("\n".join(header).encode() + b"".join(rows))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MeshLab's window, with the plugin applied in it as a user would, and a picture of that.
+"""MeshLab's window, with the plugin applied in it as a user would, and pictures of that.
 
-Takes from the environment what server.py takes, and MESHLAB, DRIVER (the plugin of window_driver.cpp), and PICTURE, the
-file that the picture is left in.
+Takes from the environment what server.py takes, and MESHLAB, DRIVER (the plugin of window_driver.cpp), and PICTURES, the
+directory that the pictures are left in.
 """
 
 import os
@@ -15,21 +15,43 @@ import meshlab_server as meshlab
 
 
 class Window(unittest.TestCase):
-    def test_a_filter_is_applied_in_the_window(self):
-        with tempfile.TemporaryDirectory() as directory:
-            work = Path(directory)
-            program = meshlab.stage(work / "stage", Path(os.environ["MESHLAB"]), Path(os.environ["MESHLAB_LIBRARIES"]),
-                                    Path(os.environ["PLUGIN"]))
-            driver = Path(os.environ["DRIVER"])
-            (next(work.glob("stage/lib/*/meshlab/plugins")) / driver.name).symlink_to(driver)
-            subprocess.run([os.environ["DECIMESH"], "demo", work, "--triangles", "100000", "--width", "100", "--quiet"],
-                           check=True, stdout=subprocess.DEVNULL)
-            picture = Path(os.environ["PICTURE"])
-            picture.unlink(missing_ok=True)
-            os.environ.update(DRIVER_FILTER=meshlab.SIMPLIFY, DRIVER_FACES="5000", DRIVER_PICTURE=str(picture))
-            done = meshlab.run(program, work, work / "statue.ply")
-            self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertGreater(picture.stat().st_size, 20000)
+    @classmethod
+    def setUpClass(cls):
+        directory = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(directory.cleanup)
+        cls.work = Path(directory.name)
+        cls.program = meshlab.stage(cls.work / "stage", Path(os.environ["MESHLAB"]),
+                                    Path(os.environ["MESHLAB_LIBRARIES"]), Path(os.environ["PLUGIN"]))
+        driver = Path(os.environ["DRIVER"])
+        (next(cls.work.glob("stage/lib/*/meshlab/plugins")) / driver.name).symlink_to(driver)
+        cls.decimesh("demo", cls.work, "--triangles", "100000", "--width", "100")
+        cls.statue = cls.work / "statue.ply"
+
+    @classmethod
+    def decimesh(cls, *arguments):
+        subprocess.run([os.environ["DECIMESH"], *map(str, arguments), "--quiet"], check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def do(self, name, files, steps):
+        """Opens the files, does the steps, and leaves the picture of that name."""
+        picture = Path(os.environ["PICTURES"]) / name
+        picture.unlink(missing_ok=True)
+        os.environ["DRIVER_STEPS"] = "\n".join([*steps, f"picture {picture}"])
+        done = meshlab.run(self.program, self.work, *files)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertGreater(picture.stat().st_size, 20000)
+
+    def test_simplify(self):
+        self.do("meshlab-simplify.png", [self.statue],
+                [f"filter {meshlab.SIMPLIFY}", "type Number of faces = 5000", "apply",
+                 "expect simplified to 5000"])
+
+    def test_deviation(self):
+        coarse = self.work / "coarse.ply"
+        self.decimesh("simplify", self.statue, coarse, "--triangles", 2000)
+        self.do("meshlab-deviation.png", [coarse, self.statue],
+                [f"filter {meshlab.DEVIATION}", "apply", "expect distance from coarse.ply", "close",
+                 "filter Colorize by vertex Quality", "apply", "close", "show 0"])
 
 
 if __name__ == "__main__":

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Hands for MeshLab's window, for tests alone: MeshLab loads this as it loads plugins, and it does what a user would.
-/// It chooses a filter, types a number of faces, presses Apply, takes a picture of the screen, and ends MeshLab.
 ///
-/// Takes from the environment: DRIVER_FILTER, the filter's name; DRIVER_FACES, what to type; DRIVER_PICTURE, a PNG file
-/// to write. MeshLab ends with status 0 once the picture is there, and 3 if it could not be brought so far.
+/// Takes the steps from DRIVER_STEPS in the environment, a line each:
+///
+///     filter NAME           choose the filter
+///     type LABEL = VALUE    fill the field beside the label
+///     apply                 press Apply
+///     close                 press Close
+///     show ROW              press the eye of a layer: it is shown, or hidden
+///     expect TEXT           there is no message that something failed, and the log has this text
+///     picture FILE          leave the screen as it is in a PNG file
+///
+/// MeshLab ends with status 0 after the last step, and 3 over one that could not be done.
 
 #include <unistd.h>
 
@@ -16,15 +24,18 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMainWindow>
+#include <QMouseEvent>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QScreen>
+#include <QStringList>
 #include <QTimer>
+#include <QTreeWidget>
 
 namespace {
 
-/// Between two things that are done, for MeshLab to draw what came of the first.
-constexpr int pause_milliseconds = 1500;
+/// Between two steps, for MeshLab to draw what came of the first.
+constexpr int pause_milliseconds = 1200;
 
 template <class T>
 T *find(const std::function<bool(T *)> &is_wanted) {
@@ -38,6 +49,93 @@ T *find(const std::function<bool(T *)> &is_wanted) {
     return nullptr;
 }
 
+/// The filter of a menu. Menus that were never open have their actions, and no window owns those of plugins.
+QAction *find_filter(const QString &name) {
+    QAction *filter = find<QAction>([&name](QAction *found) { return found->text() == name; });
+    if (filter == nullptr) {
+        find<QWidget>([&](QWidget *menu) {
+            for (QAction *action : menu->actions()) {
+                filter = action->text() == name ? action : filter;
+            }
+            return filter != nullptr;
+        });
+    }
+    return filter;
+}
+
+QLineEdit *find_field(const QString &label_text) {
+    auto *label = find<QLabel>([&label_text](QLabel *found) { return found->text() == label_text; });
+    auto *grid = label == nullptr ? nullptr : qobject_cast<QGridLayout *>(label->parentWidget()->layout());
+    if (grid == nullptr) {
+        return nullptr;
+    }
+    int row, column, rows, columns;
+    grid->getItemPosition(grid->indexOf(label), &row, &column, &rows, &columns);
+    return qobject_cast<QLineEdit *>(grid->itemAtPosition(row, 1)->widget());
+}
+
+bool choose(const QString &name) {
+    QAction *filter = find_filter(name);
+    // Not from here: one without parameters would be applied, and not return before that.
+    return filter != nullptr && QMetaObject::invokeMethod(filter, "trigger", Qt::QueuedConnection);
+}
+
+bool type(const QString &label, const QString &value) {
+    QLineEdit *field = find_field(label);
+    if (field != nullptr) {
+        field->setText(value);
+    }
+    return field != nullptr;
+}
+
+bool press(const QString &name) {
+    auto *button =
+        find<QPushButton>([&name](QPushButton *found) { return found->text() == name && found->isVisible(); });
+    return button != nullptr && QMetaObject::invokeMethod(button, "click", Qt::QueuedConnection);
+}
+
+bool press_eye(int row) {
+    const auto *layers = find<QTreeWidget>([](QTreeWidget *found) { return found->objectName() == "meshTreeWidget"; });
+    QTreeWidgetItem *layer = layers == nullptr ? nullptr : layers->topLevelItem(row);
+    if (layer == nullptr) {
+        return false;
+    }
+    const QPoint eye = layers->visualItemRect(layer).center();
+    for (const QEvent::Type event : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease}) {
+        const QPoint place(layers->columnViewportPosition(0) + layers->columnWidth(0) / 2, eye.y());
+        QApplication::postEvent(layers->viewport(),
+                                new QMouseEvent(event, place, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier));
+    }
+    return true;
+}
+
+bool has_logged(const QString &text) {
+    return QApplication::activeModalWidget() == nullptr &&
+           find<QPlainTextEdit>([&text](QPlainTextEdit *log) { return log->toPlainText().contains(text); }) != nullptr;
+}
+
+bool do_step(const QString &name, const QString &rest) {
+    if (name == "filter") {
+        return choose(rest);
+    }
+    if (name == "type") {
+        return type(rest.section(" = ", 0, 0), rest.section(" = ", 1));
+    }
+    if (name == "apply") {
+        return press("Apply");
+    }
+    if (name == "close") {
+        return press("Close");
+    }
+    if (name == "show") {
+        return press_eye(rest.toInt());
+    }
+    if (name == "expect") {
+        return has_logged(rest);
+    }
+    return name == "picture" && QApplication::primaryScreen()->grabWindow(0).save(rest, "PNG");
+}
+
 }   // namespace
 
 class WindowDriver : public QObject {
@@ -45,87 +143,32 @@ class WindowDriver : public QObject {
     Q_PLUGIN_METADATA(IID "decimesh.meshlab.WindowDriver")
 
 public:
-    WindowDriver() { then(&WindowDriver::choose_filter); }
-
-private:
-    void then(void (WindowDriver::*step)()) { QTimer::singleShot(pause_milliseconds, this, step); }
-
-    static void give_up(const char *missing) {
-        std::fprintf(stderr, "window driver: there is no %s\n", missing);
-        ::_exit(3);
+    WindowDriver() : steps_(qEnvironmentVariable("DRIVER_STEPS").split('\n')) {
+        connect(&timer_, &QTimer::timeout, this, &WindowDriver::go_on);
+        timer_.start(pause_milliseconds);
     }
 
-    void choose_filter() {
+private:
+    void go_on() {
         // Without a window manager nobody else makes the window as large as the screen.
         for (QWidget *window : QApplication::topLevelWidgets()) {
             if (qobject_cast<QMainWindow *>(window) != nullptr) {
                 window->setGeometry(QApplication::primaryScreen()->geometry());
             }
         }
-        const QString name = qEnvironmentVariable("DRIVER_FILTER");
-        for (QWidget *window : QApplication::topLevelWidgets()) {
-            for (QAction *action : window->findChildren<QAction *>()) {
-                if (action->text() == name) {
-                    return trigger(action);
-                }
-            }
-            for (QWidget *menu : window->findChildren<QWidget *>()) {
-                for (QAction *action : menu->actions()) {
-                    if (action->text() == name) {
-                        return trigger(action);
-                    }
-                }
-            }
-        }
-        give_up("such filter");
-    }
-
-    void trigger(QAction *action) {
-        then(&WindowDriver::type_faces);
-        action->trigger();
-    }
-
-    void type_faces() {
-        auto *label = find<QLabel>([](QLabel *found) { return found->text() == "Number of faces"; });
-        auto *grid = label == nullptr ? nullptr : qobject_cast<QGridLayout *>(label->parentWidget()->layout());
-        if (grid == nullptr) {
-            give_up("number of faces");
-        }
-        int row, column, rows, columns;
-        grid->getItemPosition(grid->indexOf(label), &row, &column, &rows, &columns);
-        auto *field = qobject_cast<QLineEdit *>(grid->itemAtPosition(row, 1)->widget());
-        if (field == nullptr) {
-            give_up("field for the number of faces");
-        }
-        field->setText(qEnvironmentVariable("DRIVER_FACES"));
-        then(&WindowDriver::apply);
-    }
-
-    void apply() {
-        auto *button = find<QPushButton>([](QPushButton *found) { return found->text() == "Apply" && found->isVisible(); });
-        if (button == nullptr) {
-            give_up("button to apply");
-        }
-        then(&WindowDriver::take_picture);
-        button->click();
-    }
-
-    void take_picture() {
-        if (QApplication::activeModalWidget() != nullptr) {
-            give_up("way past a message that the filter failed");
-        }
-        const QString done = "simplified to " + qEnvironmentVariable("DRIVER_FACES");
-        const auto *log =
-            find<QPlainTextEdit>([&done](QPlainTextEdit *found) { return found->toPlainText().contains(done); });
-        if (log == nullptr) {
-            give_up("line in the log that it was applied");
-        }
-        if (!QApplication::primaryScreen()->grabWindow(0).save(qEnvironmentVariable("DRIVER_PICTURE"), "PNG")) {
-            give_up("picture");
-        }
         // Its window would ask whether to save.
-        ::_exit(0);
+        if (steps_.isEmpty()) {
+            ::_exit(0);
+        }
+        const QString step = steps_.takeFirst();
+        if (!do_step(step.section(' ', 0, 0), step.section(' ', 1))) {
+            std::fprintf(stderr, "window driver: could not do \"%s\"\n", step.toUtf8().constData());
+            ::_exit(3);
+        }
     }
+
+    QStringList steps_;
+    QTimer timer_;
 };
 
 #include "window_driver.moc"
