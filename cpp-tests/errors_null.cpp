@@ -113,9 +113,13 @@ TEST_CASE("errors: levels that are NULL or do not exist") {
     check_refused(decimesh_levels_report(levels, 0, nullptr), DECIMESH_ERROR_NULL, {"report is NULL"});
     check_refused(decimesh_levels_report(levels, 3, &report), DECIMESH_ERROR_OUT_OF_RANGE, {"level 3"});
     const auto *groups = nobody<const std::uint32_t>();
+    const auto *origins = nobody<const std::uint32_t>();
     check_refused(decimesh_levels_groups(nullptr, 0, &groups), DECIMESH_ERROR_NULL, {"levels is NULL"});
     check_refused(decimesh_levels_groups(levels, 0, nullptr), DECIMESH_ERROR_NULL, {"groups is NULL"});
     check_refused(decimesh_levels_groups(levels, 1, &groups), DECIMESH_ERROR_OUT_OF_RANGE, {"level 1"});
+    check_refused(decimesh_levels_origins(levels, 1, &origins), DECIMESH_ERROR_OUT_OF_RANGE, {"level 1"});
+    check_refused(decimesh_levels_origins(nullptr, 0, &origins), DECIMESH_ERROR_NULL, {"levels is NULL"});
+    check_refused(decimesh_levels_origins(levels, 0, nullptr), DECIMESH_ERROR_NULL, {"origins is NULL"});
     CHECK(groups == nobody<const std::uint32_t>());
     check_refused(decimesh_levels_select(nullptr, 1, &level), DECIMESH_ERROR_NULL, {"levels is NULL"});
     check_refused(decimesh_levels_select(levels, 1, nullptr), DECIMESH_ERROR_NULL, {"level is NULL"});

@@ -87,6 +87,8 @@ const std::vector<Defect> defects = {
          options.locked_vertices = no_such_vertex;
          options.locked_count = SIZE_MAX;
      }},
+    {"a switch that is neither on nor off", DECIMESH_ERROR_OPTION, {"level_origins is 2"},
+     [](auto &options) { options.level_origins = 2; }},
     {"an option of the future", DECIMESH_ERROR_UNKNOWN_OPTION, {"reserved is 1"},
      [](auto &options) { options.reserved = 1; }},
 };

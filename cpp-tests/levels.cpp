@@ -1,5 +1,8 @@
 /// Chains of levels of detail.
 
+#include <algorithm>
+#include <vector>
+
 #include <decimesh.hpp>
 #include <doctest/doctest.h>
 
@@ -80,9 +83,35 @@ TEST_CASE("levels: what does not exist or does not fit is refused") {
     CHECK(status_of(Levels(), 0) == decimesh::Status::null);
     CHECK(Levels().size() == 0);
     CHECK_THROWS_AS(Levels::build(mesh, {Target::ratio(0.5), Target::triangles(9)}), std::invalid_argument);
-    decimesh::Options options;
-    options.track_origins = true;
-    CHECK_THROWS_AS(Levels::build(mesh, {Target::ratio(0.5)}, options), decimesh::Error);
+}
+
+TEST_CASE("levels: where vertices went is known, of every level, if asked for") {
+    const Mesh mesh = shapes::stone(32, 24).mesh();
+    const std::vector<Target> targets = {Target::ratio(0.5), Target::ratio(0.1)};
+    const Levels untracked = Levels::build(mesh, targets);
+    CHECK(untracked.origins(0).empty());
+    for (const auto placement : {decimesh::Placement::optimal, decimesh::Placement::existing}) {
+        decimesh::Options options;
+        options.placement = placement;
+        options.track_origins = true;
+        const Levels levels = Levels::build(mesh, targets, options);
+        CHECK_THROWS_AS(levels.origins(2), decimesh::Error);
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            const decimesh::Span<const std::uint32_t> origins = levels.origins(level);
+            REQUIRE(origins.size() == mesh.vertex_count());
+            std::vector<bool> is_named(levels.mesh(level).vertex_count(), false);
+            for (const std::uint32_t origin : origins) {
+                if (origin != decimesh::vanished) {
+                    REQUIRE(origin < is_named.size());
+                    is_named[origin] = true;
+                }
+            }
+            CHECK(std::find(is_named.begin(), is_named.end(), false) == is_named.end());
+        }
+        options.target = targets[0];
+        const std::vector<std::uint32_t> alone = decimesh::simplify(mesh, options).origins;
+        CHECK(std::equal(alone.begin(), alone.end(), levels.origins(0).begin()));
+    }
 }
 
 TEST_CASE("levels: meshes stay where they are when the levels move") {

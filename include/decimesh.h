@@ -439,7 +439,7 @@ typedef struct decimesh_simplify_options {
     size_t locked_count;
     /**
      * NULL, or room for one index a vertex of the input. It receives the vertex of the result that each
-     * went into, UINT32_MAX where it vanished.
+     * went into, UINT32_MAX where it vanished. Levels have a call of their own for theirs.
      */
     uint32_t *origins;
     /**
@@ -495,9 +495,10 @@ typedef struct decimesh_simplify_options {
      */
     int32_t refine;
     /**
-     * Must be 0.
+     * 1: levels remember what became of each vertex of the input, for decimesh_levels_origins(). For
+     * decimesh_levels_build(); elsewhere it changes nothing. By default 0.
      */
-    uint32_t reserved_refine;
+    int32_t level_origins;
 } decimesh_simplify_options;
 
 /**
@@ -1388,7 +1389,8 @@ decimesh_status decimesh_multiple_choice(const struct decimesh_mesh *mesh,
  * *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
  * _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
  *
- * Linear time; about 24 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+ * Linear time; about 24 bytes of memory a triangle, and the levels; with options->level_origins 4 bytes more for
+ * each vertex of the input and each level. Any thread; progress is told on the
  * calling one.
  */
 decimesh_status decimesh_levels_build(const struct decimesh_mesh *mesh,
@@ -1439,6 +1441,18 @@ decimesh_status decimesh_levels_report(const struct decimesh_levels *levels,
 decimesh_status decimesh_levels_groups(const struct decimesh_levels *levels,
                                        size_t level,
                                        const uint32_t **groups);
+
+/**
+ * For each vertex of the input the vertex of a level, 0 being the finest, that it went into, UINT32_MAX where it
+ * vanished, if options->level_origins was 1: into *origins, which becomes NULL if not. By it go what attributes
+ * decimesh does not know.
+ *
+ * They belong to the chain and are valid until it ends. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+ * any thread.
+ */
+decimesh_status decimesh_levels_origins(const struct decimesh_levels *levels,
+                                        size_t level,
+                                        const uint32_t **origins);
 
 /**
  * The coarsest level whose error is at most max_error, in units of the positions: into *level, which

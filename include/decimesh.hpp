@@ -357,7 +357,7 @@ struct Options {
     std::vector<std::uint8_t> vertex_flags = {};
     /// Threads to work with; 0: all of the machine.
     std::uint32_t threads = 0;
-    /// Fill `origins` of the result.
+    /// Fill `origins` of the result. For what makes one mesh, and for `Levels`.
     bool track_origins = false;
     /// Hears of progress, and may cancel. Empty: nobody does.
     Progress progress = {};
@@ -708,8 +708,8 @@ SimplifiedIndices simplify_in_place(const MutableBuffers<Index> &buffers, const 
 /// A chain of ever coarser meshes, each made from the one before. Immutable, move-only.
 class Levels {
 public:
-    /// A level for each of `targets`, from fine to coarse; all of one kind. `Options::target` is not looked at,
-    /// and `Options::track_origins` must be off. Levels that cannot be met are the mesh before, and say so.
+    /// A level for each of `targets`, from fine to coarse; all of one kind. `Options::target` is not looked at.
+    /// Levels that cannot be met are the mesh before, and say so.
     ///
     /// A chain costs little more than its coarsest level.
     static Levels build(MeshView mesh, const std::vector<Target> &targets, const Options &options = {});
@@ -729,6 +729,11 @@ public:
     Span<const std::uint32_t> groups(std::size_t level) const &;
     Span<const std::uint32_t> groups(std::size_t level) const && = delete;
 
+    /// For each vertex of the input the vertex of `level` that it went into, or `vanished`; borrowed as the mesh is.
+    /// Empty unless `Options::track_origins`.
+    Span<const std::uint32_t> origins(std::size_t level) const &;
+    Span<const std::uint32_t> origins(std::size_t level) const && = delete;
+
     /// The coarsest level with an error of at most `max_error`; none if even the finest exceeds it: then draw
     /// the mesh itself.
     std::optional<std::size_t> select(float max_error) const;
@@ -741,6 +746,7 @@ private:
         void operator()(decimesh_levels *handle) const noexcept { decimesh_levels_destroy(handle); }
     };
     std::unique_ptr<decimesh_levels, Destroy> handle_;
+    std::size_t input_vertices_ = 0;
 };
 
 /// What is known of a level of `NestedLevels`.
@@ -756,9 +762,9 @@ struct NestedLevel {
 /// names vertices below a number that falls from level to level. Move-only.
 class NestedLevels {
 public:
-    /// A level for each of `targets` after level 0, from fine to coarse; all of one kind. `Options::target` and
-    /// `Options::placement` are not looked at, and `Options::track_origins` must be off. Levels that cannot be
-    /// met are the same as the one before, and say so.
+    /// A level for each of `targets` after level 0, from fine to coarse; all of one kind. `Options::target`,
+    /// `Options::placement` and `Options::track_origins` are not looked at. Levels that cannot be met are the
+    /// same as the one before, and say so.
     static NestedLevels build(MeshView mesh, const std::vector<Target> &targets, const Options &options = {});
 
     /// How many levels, level 0 included.
@@ -879,7 +885,7 @@ public:
 
     /// Simplifies to each of `targets` in turn, from fine to coarse, all of one kind, and keeps all levels in
     /// between. The topology is kept, so that the coarsest level may be larger than asked for. `Options::target`,
-    /// `Options::placement` and `Options::topology` are not looked at, and `Options::track_origins` must be off.
+    /// `Options::placement`, `Options::topology` and `Options::track_origins` are not looked at.
     static Progressive build(MeshView mesh, const std::vector<Target> &targets, const Options &options = {});
 
     /// Reads a file, up to the finest level of at most `max_triangles`, or the coarsest. `path` is UTF-8.
@@ -1097,15 +1103,16 @@ public:
         raw.color_weight = options.attribute_weights.colors;
         raw.triangle_groups = element_each(options.triangle_groups, "groups", triangles, "triangles");
         raw.vertex_flags = element_each(options.vertex_flags, "flags", vertices, "vertices");
-        if (options.track_origins) {
-            origins.resize(vertices);
-            raw.origins = origins.data();
-        }
+        raw.level_origins = options.track_origins;
         watcher_.attach(raw);
     }
 
     /// To be called before one mesh is made.
-    void ask_for_groups(std::size_t triangles) {
+    void ask_for_elements(std::size_t vertices, std::size_t triangles) {
+        if (raw.level_origins != 0) {
+            origins.resize(vertices);
+            raw.origins = origins.data();
+        }
         if (raw.triangle_groups != nullptr) {
             groups.resize(triangles);
             raw.result_groups = groups.data();
@@ -1310,7 +1317,7 @@ inline Mesh Mesh::read(const std::string &path) {
 
 inline Simplified simplify(MeshView mesh, const Options &options) {
     detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
-    call.ask_for_groups(mesh.triangle_count());
+    call.ask_for_elements(mesh.vertex_count(), mesh.triangle_count());
     decimesh_mesh *simplified = nullptr;
     const decimesh_status status = decimesh_simplify(mesh.get(), &call.raw, &simplified, &call.report);
     Mesh result = Mesh::adopt(simplified);
@@ -1339,7 +1346,7 @@ inline Decimated multiple_choice(MeshView mesh, std::size_t triangles, const Mul
 
 inline Certified simplify_within(MeshView mesh, double max_error, const Options &options) {
     detail::SimplifyCall call(options, mesh.vertex_count(), mesh.triangle_count());
-    call.ask_for_groups(mesh.triangle_count());
+    call.ask_for_elements(mesh.vertex_count(), mesh.triangle_count());
     decimesh_mesh *simplified = nullptr;
     auto bound = detail::sized<decimesh_bound_result>();
     const decimesh_status status =
@@ -1359,7 +1366,7 @@ SimplifiedIndices simplify_indices(std::common_type_t<Span<Index>> destination, 
     }
     const auto raw = detail::to_raw<decimesh_buffers>(buffers);
     detail::SimplifyCall call(options, raw.vertex_count, raw.index_count / 3);
-    call.ask_for_groups(raw.index_count / 3);
+    call.ask_for_elements(raw.vertex_count, raw.index_count / 3);
     std::size_t count = 0;
     call.check(decimesh_simplify_indices(destination.data(), &raw, &call.raw, &count, &call.report));
     return {count, detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
@@ -1369,7 +1376,7 @@ template <class Index>
 SimplifiedIndices simplify_in_place(const MutableBuffers<Index> &buffers, const Options &options) {
     const auto raw = detail::to_raw<decimesh_mutable_buffers>(buffers);
     detail::SimplifyCall call(options, raw.vertex_count, raw.index_count / 3);
-    call.ask_for_groups(raw.index_count / 3);
+    call.ask_for_elements(raw.vertex_count, raw.index_count / 3);
     std::size_t count = 0;
     call.check(decimesh_simplify_in_place(&raw, &call.raw, &count, &call.report));
     return {count, detail::from_raw(call.report), std::move(call.origins), std::move(call.groups)};
@@ -1383,6 +1390,7 @@ inline Levels Levels::build(MeshView mesh, const std::vector<Target> &targets, c
     const decimesh_status status =
         decimesh_levels_build(mesh.get(), &call.raw, values.data(), values.size(), &handle);
     levels.handle_.reset(handle);
+    levels.input_vertices_ = mesh.vertex_count();
     call.check(status);
     return levels;
 }
@@ -1403,6 +1411,12 @@ inline Span<const std::uint32_t> Levels::groups(std::size_t level) const & {
     const std::uint32_t *first = nullptr;
     detail::check(decimesh_levels_groups(get(), level, &first));
     return {first, first == nullptr ? 0 : mesh(level).triangle_count()};
+}
+
+inline Span<const std::uint32_t> Levels::origins(std::size_t level) const & {
+    const std::uint32_t *first = nullptr;
+    detail::check(decimesh_levels_origins(get(), level, &first));
+    return {first, first == nullptr ? 0 : input_vertices_};
 }
 
 inline std::optional<std::size_t> Levels::select(float max_error) const {

@@ -160,12 +160,14 @@ proptest! {
         let targets = values.map(Target::Ratio);
         let rust = request.in_rust(&mesh);
         let quiet = &mut Monitor::silent();
-        let chain = build_levels(&mesh, &targets, &rust, quiet).expect("the options are good");
+        let tracked = Options { track_origins: true, ..rust.clone() };
+        let chain = build_levels(&mesh, &targets, &tracked, quiet).expect("the options are good");
         let nested = NestedLevels::build(&mesh, &targets, &rust, quiet).expect("the options are good");
         let progressive = Progressive::build(&mesh, &targets, &rust, quiet).expect("the options are good");
 
         let (groups, flags) = (request.groups(&mesh), request.flags(&mesh));
-        let options = request.in_c(groups.as_deref(), &flags);
+        let mut options = request.in_c(groups.as_deref(), &flags);
+        options.level_origins = 1;
         let buffers = c_calls::buffers(&mesh);
         let mut indices = vec![u32::MAX; buffers.index_count];
         let room = indices.len();
@@ -183,6 +185,10 @@ proptest! {
                 let count = 3 * decimesh_mesh_triangle_count(found);
                 let found = std::slice::from_raw_parts(decimesh_mesh_indices(found), count);
                 prop_assert_eq!(found, expected.mesh.triangles().as_flattened());
+                let mut origins = ptr::null();
+                succeeded(decimesh_levels_origins(levels, level, &mut origins));
+                let origins = std::slice::from_raw_parts(origins, buffers.vertex_count);
+                prop_assert_eq!(Some(origins), expected.origins.as_deref());
             }
             decimesh_levels_destroy(levels);
 
@@ -283,7 +289,7 @@ fn refined_meshes_are_those_of_rust() {
         };
         refused(&|options| options.refine = 2, DECIMESH_ERROR_OPTION);
         refused(&|options| options.placement = DECIMESH_PLACEMENT_EXISTING, DECIMESH_ERROR_OPTION);
-        refused(&|options| options.reserved_refine = 1, DECIMESH_ERROR_UNKNOWN_OPTION);
+        refused(&|options| options.level_origins = 2, DECIMESH_ERROR_OPTION);
         decimesh_mesh_destroy(input);
     }
 }

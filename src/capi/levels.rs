@@ -20,6 +20,7 @@ pub struct decimesh_levels {
     meshes: Vec<decimesh_mesh>,
     reports: Vec<decimesh_simplify_report>,
     groups: Vec<Option<Vec<u32>>>,
+    origins: Vec<Option<Vec<u32>>>,
 }
 
 impl decimesh_levels {
@@ -67,7 +68,8 @@ pub(super) unsafe fn read_chain(
 /// *levels receives the chain, which the caller ends with decimesh_levels_destroy(). Fails with _NULL,
 /// _EMPTY, _OVERFLOW, _STRUCT_SIZE, _UNKNOWN_OPTION, _ENUM, _OPTION, _CANCELLED, _THREADS or _OUT_OF_MEMORY.
 ///
-/// Linear time; about 24 bytes of memory a triangle, and the levels. Any thread; progress is told on the
+/// Linear time; about 24 bytes of memory a triangle, and the levels; with options->level_origins 4 bytes more for
+/// each vertex of the input and each level. Any thread; progress is told on the
 /// calling one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn decimesh_levels_build(
@@ -81,12 +83,14 @@ pub unsafe extern "C" fn decimesh_levels_build(
         // SAFETY: none is NULL, and the caller vouches for what they point to.
         unsafe {
             let mesh = (*mesh).mesh();
-            let (own, targets, options) = read_chain(mesh, options, target_values, count)?;
+            let (own, targets, mut options) = read_chain(mesh, options, target_values, count)?;
+            options.track_origins = own.keeps_level_origins()?;
             let mut results = build_levels(mesh, &targets, &options, &mut own.monitor())?;
             let reports = results.iter().map(Into::into).collect();
             let groups = results.iter_mut().map(|result| result.groups.take()).collect();
+            let origins = results.iter_mut().map(|result| result.origins.take()).collect();
             let meshes = results.into_iter().map(|result| decimesh_mesh::part(result.mesh));
-            let chain = decimesh_levels { meshes: meshes.collect(), reports, groups };
+            let chain = decimesh_levels { meshes: meshes.collect(), reports, groups, origins };
             levels.write(Box::into_raw(Box::new(chain)));
         }
         Ok(())
@@ -168,6 +172,29 @@ pub unsafe extern "C" fn decimesh_levels_groups(
             let levels = &*levels;
             levels.check(level)?;
             groups.write(levels.groups[level].as_ref().map_or(ptr::null(), |groups| groups.as_ptr()));
+        }
+        Ok(())
+    })
+}
+
+/// For each vertex of the input the vertex of a level, 0 being the finest, that it went into, UINT32_MAX where it
+/// vanished, if options->level_origins was 1: into *origins, which becomes NULL if not. By it go what attributes
+/// decimesh does not know.
+///
+/// They belong to the chain and are valid until it ends. Fails with _NULL or _OUT_OF_RANGE. Constant time;
+/// any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn decimesh_levels_origins(
+    levels: *const decimesh_levels,
+    level: usize,
+    origins: *mut *const u32,
+) -> decimesh_status {
+    entry!([levels, origins] {
+        // SAFETY: neither is NULL, and the caller vouches for what they point to.
+        unsafe {
+            let levels = &*levels;
+            levels.check(level)?;
+            origins.write(levels.origins[level].as_ref().map_or(ptr::null(), |origins| origins.as_ptr()));
         }
         Ok(())
     })

@@ -101,7 +101,7 @@ pub struct decimesh_simplify_options {
     /// How many locked_vertices there are.
     pub locked_count: usize,
     /// NULL, or room for one index a vertex of the input. It receives the vertex of the result that each
-    /// went into, UINT32_MAX where it vanished.
+    /// went into, UINT32_MAX where it vanished. Levels have a call of their own for theirs.
     pub origins: *mut u32,
     /// Is told of progress, and can cancel; NULL for none.
     pub progress: decimesh_progress,
@@ -135,8 +135,9 @@ pub struct decimesh_simplify_options {
     /// triangles, 1.6 at a tenth, and up to 4 at a half. Vertices that are locked or on a border stay. For
     /// DECIMESH_PLACEMENT_OPTIMAL only; otherwise 1 is DECIMESH_ERROR_OPTION. By default 0.
     pub refine: i32,
-    /// Must be 0.
-    pub reserved_refine: u32,
+    /// 1: levels remember what became of each vertex of the input, for decimesh_levels_origins(). For
+    /// decimesh_levels_build(); elsewhere it changes nothing. By default 0.
+    pub level_origins: i32,
 }
 
 // SAFETY: repr(C); integers, a double, pointers and sizes that leave no gap between them; a function
@@ -170,7 +171,7 @@ unsafe impl Versioned for decimesh_simplify_options {
             result_groups: ptr::null_mut(),
             vertex_flags: ptr::null(),
             refine: 0,
-            reserved_refine: 0,
+            level_origins: 0,
         }
     }
 }
@@ -283,13 +284,11 @@ impl decimesh_simplify_options {
     /// # Safety
     /// The pointers are good.
     pub(super) unsafe fn with_target(&self, target: Target) -> Result<Options, Failure> {
-        for (name, value) in [("reserved", self.reserved), ("reserved_refine", self.reserved_refine)] {
-            if value == 0 {
-                continue;
-            }
-            let message = format!("{name} is {value}, not 0: it is an option of a newer decimesh");
+        if self.reserved != 0 {
+            let message = format!("reserved is {}, not 0: it is an option of a newer decimesh", self.reserved);
             return Err(Failure::new(DECIMESH_ERROR_UNKNOWN_OPTION, message));
         }
+        self.keeps_level_origins()?;
         let selection = match self.selection {
             DECIMESH_SELECTION_SAMPLED_THRESHOLD => Selection::SampledThreshold,
             DECIMESH_SELECTION_REPLACEMENT => {
@@ -335,6 +334,11 @@ impl decimesh_simplify_options {
             track_origins: !self.origins.is_null(),
             ..Options::new(target)
         })
+    }
+
+    /// Whether levels are to remember what became of each vertex.
+    pub(super) fn keeps_level_origins(&self) -> Result<bool, Failure> {
+        switch("level_origins", self.level_origins)
     }
 
     /// `options` with what there is one of for each vertex or triangle of `mesh`.
