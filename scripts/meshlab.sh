@@ -12,6 +12,9 @@
 #   --cache DIR      where MeshLab's sources are, or are to be left; otherwise a directory of the user's cache
 #   --pictures       write the pictures of docs/meshlab.md anew
 #
+# The tests in MeshLab take the statue of `decimesh demo`, or, if MESH is set in the environment, that PLY file of some
+# ten thousand triangles and more: docs/meshlab.md shows the Stanford bunny.
+#
 # Needs cargo, unless a prefix and a command are given.
 set -euo pipefail
 
@@ -35,6 +38,10 @@ while [ $# -gt 0 ]; do
 done
 mkdir -p "$cache"
 cache=$(realpath "$cache")
+if [ -n "${MESH:-}" ]; then
+    MESH=$(realpath "$MESH")
+    export MESH
+fi
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 target=${CARGO_TARGET_DIR:-$PWD/target}

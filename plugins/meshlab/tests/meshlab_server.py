@@ -93,6 +93,12 @@ def run(program: Path, home: Path, *arguments) -> subprocess.CompletedProcess:
                           errors="replace", timeout=PATIENCE, check=False)
 
 
+def edges(surface) -> collections.Counter:
+    """How many faces are at each edge of what Ply.surface gives."""
+    return collections.Counter(tuple(sorted((face[corner - 1], face[corner]))) for face in surface
+                               for corner in range(3))
+
+
 class Ply:
     """What a binary PLY file of MeshLab's or decimesh's has: columns of vertices by name, and faces."""
 
@@ -159,11 +165,6 @@ class Ply:
                 first = found.index(min(found))
                 faces.append(tuple(found[first:] + found[:first]))
         return sorted(faces)
-
-    def edges(self) -> collections.Counter:
-        """How many faces are at each edge, by its vertices."""
-        return collections.Counter(tuple(sorted((face[corner - 1], face[corner]))) for face in self.faces
-                                   for corner in range(3))
 
     def write(self, path: Path, color_at):
         """Writes places and faces, and for each vertex the colour of its place: red, green, blue, alpha."""
