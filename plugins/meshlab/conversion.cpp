@@ -290,8 +290,8 @@ std::vector<std::uint32_t> textures_of_vertices(const Part &part) {
 /// Finds which vertices of the layer carry those of a result on.
 class Carriers {
 public:
-    Carriers(const Part &part, const decimesh::Simplified &result)
-        : part_(part), result_(result), carriers_(result.mesh.vertex_count(), none),
+    Carriers(const Part &part, decimesh::MeshView result, decimesh::Span<const std::uint32_t> origins)
+        : part_(part), result_(result), origins_(origins), carriers_(result.vertex_count(), none),
           is_taken_(part.layer_vertices, false) {}
 
     void find(Replacement &replacement) {
@@ -304,7 +304,7 @@ public:
 private:
     /// Copies of one vertex that have stayed become that vertex again.
     void take_those_that_stayed() {
-        const decimesh::Span<const float> positions = result_.mesh.positions();
+        const decimesh::Span<const float> positions = result_.positions();
         for_each_origin([&](std::uint32_t copy, std::uint32_t vertex) {
             const float *before = part_.positions.data() + 3 * std::size_t{copy};
             const float *after = positions.data() + 3 * std::size_t{vertex};
@@ -318,8 +318,8 @@ private:
     void take_kept() {
         for (const std::uint32_t copy : part_.kept) {
             is_taken_[part_.vertices[copy]] = true;
-            if (result_.origins[copy] != decimesh::vanished) {
-                carriers_[result_.origins[copy]] = part_.vertices[copy];
+            if (origins_[copy] != decimesh::vanished) {
+                carriers_[origins_[copy]] = part_.vertices[copy];
             }
         }
     }
@@ -350,15 +350,16 @@ private:
 
     template <class Call>
     void for_each_origin(Call call) const {
-        for (std::size_t copy = 0; copy < result_.origins.size(); ++copy) {
-            if (result_.origins[copy] != decimesh::vanished) {
-                call(index_of(copy), result_.origins[copy]);
+        for (std::size_t copy = 0; copy < origins_.size(); ++copy) {
+            if (origins_[copy] != decimesh::vanished) {
+                call(index_of(copy), origins_[copy]);
             }
         }
     }
 
     const Part &part_;
-    const decimesh::Simplified &result_;
+    const decimesh::MeshView result_;
+    const decimesh::Span<const std::uint32_t> origins_;
     std::vector<std::uint32_t> carriers_;
     std::vector<bool> is_taken_;
 };
@@ -451,22 +452,23 @@ decimesh::Buffers<> buffers_of(const Part &part) {
     return buffers;
 }
 
-Replacement moved(const Part &part, const decimesh::Simplified &result) {
+Replacement moved(const Part &part, decimesh::MeshView result, decimesh::Span<const std::uint32_t> origins,
+                  decimesh::Span<const std::uint32_t> groups) {
     Replacement replacement;
-    Carriers(part, result).find(replacement);
-    replacement.positions = copy_of(result.mesh.positions());
-    replacement.normals = copy_of(result.mesh.normals());
-    replacement.uvs = copy_of(result.mesh.uvs());
-    replacement.colors = copy_of(result.mesh.colors());
-    replacement.indices = copy_of(result.mesh.indices());
-    if (!result.groups.empty()) {
-        replacement.textures = result.groups;
+    Carriers(part, result, origins).find(replacement);
+    replacement.positions = copy_of(result.positions());
+    replacement.normals = copy_of(result.normals());
+    replacement.uvs = copy_of(result.uvs());
+    replacement.colors = copy_of(result.colors());
+    replacement.indices = copy_of(result.indices());
+    if (!groups.empty()) {
+        replacement.textures = copy_of(groups);
     } else if (part.has_wedge_uvs) {
         const std::vector<std::uint32_t> before = textures_of_vertices(part);
-        std::vector<std::uint32_t> after(result.mesh.vertex_count(), 0);
-        for (std::size_t copy = 0; copy < result.origins.size(); ++copy) {
-            if (result.origins[copy] != decimesh::vanished) {
-                after[result.origins[copy]] = before[copy];
+        std::vector<std::uint32_t> after(result.vertex_count(), 0);
+        for (std::size_t copy = 0; copy < origins.size(); ++copy) {
+            if (origins[copy] != decimesh::vanished) {
+                after[origins[copy]] = before[copy];
             }
         }
         replacement.textures = textures_by(after, replacement.indices);

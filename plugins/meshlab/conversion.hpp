@@ -75,10 +75,12 @@ struct Replacement {
     std::vector<std::uint32_t> textures;    ///< for each face; empty unless `uvs` are those of wedges
 };
 
-/// The replacement that `result` is, made of `part` with `Options::track_origins`. Where no vertex moved and there are
-/// several textures, `part.textures` must have been `Options::triangle_groups`. A vertex becomes one of those that went
-/// into it, itself where it has stayed. Linear time.
-Replacement moved(const Part &part, const decimesh::Simplified &result);
+/// The replacement that `result` is, made of `part`: `origins` say where each vertex of the part went, and `groups` are
+/// those of the result. Where no vertex moved and there are several textures, `part.textures` must have been
+/// `Options::triangle_groups`; otherwise there are no groups. A vertex becomes one of those that went into it, itself
+/// where it has stayed. Linear time.
+Replacement moved(const Part &part, decimesh::MeshView result, decimesh::Span<const std::uint32_t> origins,
+                  decimesh::Span<const std::uint32_t> groups);
 
 /// The replacement with vertices of `part` as they are: vertex `i` of `indices` is `sources[i]` of `part`. `textures`
 /// are those of the faces; where they are empty, vertices must not have gone from one texture to another. Linear time.

@@ -119,7 +119,8 @@ Reduced simplify(const Part &part, const Simplification &simplification, std::op
     const decimesh::Simplified result =
         guaranteed_error ? decimesh::simplify_within(mesh, *guaranteed_error, options).simplified
                          : decimesh::simplify(mesh, options);
-    return {moved(part, result), in_words(part, result.report, guaranteed_error.has_value())};
+    return {moved(part, result.mesh, result.origins, result.groups),
+            in_words(part, result.report, guaranteed_error.has_value())};
 }
 
 Reduced choose(const Part &part, std::size_t faces, decimesh::MultipleChoiceOptions options) {
@@ -144,12 +145,13 @@ std::vector<Reduced> build_levels(const Part &part, const Chain &chain, const Si
     if (chain.is_nested) {
         return nested_levels(part, targets, chain.is_certified, simplification);
     }
+    decimesh::Options options = options_for(part, simplification);
+    options.track_origins = true;
+    const auto levels = decimesh::Levels::build(decimesh::Mesh::from_buffers(buffers_of(part)), targets, options);
     std::vector<Reduced> reduced;
-    for (std::size_t level = 0; level < targets.size(); ++level) {
-        Simplification one = simplification;
-        one.options.target = targets[level];
-        one.options.progress = piece(simplification.options.progress, level, targets.size());
-        reduced.push_back(simplify(part, one));
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        reduced.push_back({moved(part, levels.mesh(level), levels.origins(level), levels.groups(level)),
+                           in_words(part, levels.report(level), false)});
     }
     return reduced;
 }

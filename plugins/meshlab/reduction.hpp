@@ -51,8 +51,7 @@ struct Chain {
     bool is_certified = false;     ///< whether errors of nested levels are proven
 };
 
-/// Levels of detail of `part`, from fine to coarse. Nested ones come from one run. Others are each made of the part
-/// itself: closer to it than a chain from one level to the next, in the time of a run each.
+/// Levels of detail of `part`, from fine to coarse, all from one run.
 ///
 /// Throws `std::invalid_argument` if `chain` is not as it says there.
 std::vector<Reduced> build_levels(const Part &part, const Chain &chain, const Simplification &simplification);

@@ -206,16 +206,20 @@ class Server(unittest.TestCase):
                     self.assertEqual(mine.surface(), self.command("--triangles", 1000, source=source).surface())
 
     def test_levels_become_layers(self):
-        for nested in (False, True):
+        for nested, engine in ((False, "hqms"), (True, "indices")):
             with self.subTest(nested=nested):
+                self.decimesh("levels", self.mesh, self.place / engine, "--count", 3, "--ratio", 0.5,
+                              "--engine", engine)
                 outputs = [self.place / f"level{level}-{nested}.ply" for level in range(4)]
                 saved = [word for level, out in enumerate(outputs) for word in ("-o", out, "-l", level)]
                 done = self.meshlab([self.mesh], [(LEVELS, {"Levels": 3, "Ratio": 0.5, "Nested": nested})], *saved)
                 self.assertEqual(done.returncode, 0, done.stdout)
-                counts = [len(Ply(out).faces) for out in outputs]
-                self.assertEqual(counts[0], self.faces)
+                layers = [Ply(out) for out in outputs]
+                self.assertEqual(layers[0].surface(), Ply(self.mesh).surface())
                 for level in (1, 2, 3):
-                    self.assertIn(self.faces // 2**level - counts[level], (0, 1))
+                    self.assertIn(self.faces // 2**level - len(layers[level].faces), (0, 1))
+                    theirs = Ply(self.place / engine / f"{self.mesh.stem}_{level}.ply")
+                    self.assertEqual(layers[level].surface(), theirs.surface())
                 self.assertIn("level 3: ", done.stdout)
 
     def test_deviation_becomes_quality(self):
