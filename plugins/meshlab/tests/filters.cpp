@@ -112,7 +112,7 @@ TEST_CASE("meshes that are no surfaces are simplified") {
         vcg::tri::Allocator<CMeshO>::AddFace(mesh, 0, 1, 200);
         vcg::tri::Allocator<CMeshO>::AddFace(mesh, 0, 1, 300);
         vcg::tri::Allocator<CMeshO>::AddFace(mesh, 0, 1, 300);
-        vcg::tri::Allocator<CMeshO>::AddFace(mesh, 5, 5, 9);
+        vcg::tri::Allocator<CMeshO>::AddFace(mesh, 5, 6, 9)->V(1) = &mesh.vert[5];
         vcg::tri::Allocator<CMeshO>::AddVertices(mesh, 7);
         CHECK(apply(filter, document, defaults(filter, document)));
         CHECK(document.meshList.back()->cm.fn < 810);
