@@ -285,7 +285,8 @@ impl decimesh_simplify_options {
     /// The pointers are good.
     pub(super) unsafe fn with_target(&self, target: Target) -> Result<Options, Failure> {
         if self.reserved != 0 {
-            let message = format!("reserved is {}, not 0: it is an option of a newer decimesh", self.reserved);
+            let message =
+                format!("reserved is {}, not 0: it is an option of a newer decimesh", self.reserved);
             return Err(Failure::new(DECIMESH_ERROR_UNKNOWN_OPTION, message));
         }
         self.keeps_level_origins()?;
