@@ -132,14 +132,20 @@ impl Ring {
     #[inline(always)]
     pub(crate) fn complete(&mut self, vertex: u32, boundary: bool, count: usize) {
         self.complete_names(vertex, boundary, count);
+        self.complete_quadric();
+    }
+
+    /// The quadric of the faces of a ring that is complete but for it.
+    #[inline(always)]
+    pub(crate) fn complete_quadric(&mut self) {
         self.quadric = Quadric::of_faces(self.blocks().iter().map(|block| block.spokes.cross));
-        if boundary {
+        if self.boundary {
             self.add_border_lines();
         }
     }
 
-    /// The same without a quadric: enough for the link condition at the end of an edge that stays where it is,
-    /// to which the ways may be anything.
+    /// [`complete`](Self::complete) without a quadric, which is what it was: enough for the link condition at the
+    /// end of an edge that stays where it is, to which the ways may be anything.
     #[inline(always)]
     pub(crate) fn complete_names(&mut self, vertex: u32, boundary: bool, count: usize) {
         self.count = count;

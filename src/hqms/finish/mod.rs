@@ -232,8 +232,8 @@ impl<'a> Finish<'a> {
         is_split
     }
 
-    /// Gathers the ring of `vertex`, and the corners it consists of. Faces that have died leave the
-    /// list. Whether the ring is a border's is decided anew, as holes close and open here.
+    /// Gathers the ring of `vertex` but for its quadric, and the corners it consists of. Faces that have died
+    /// leave the list. Whether the ring is a border's is decided anew, as holes close and open here.
     fn gather(&mut self, vertex: u32, ring: &mut Ring, corners: &mut Vec<u32>) {
         corners.clear();
         let (mut corner, mut last) = (self.first[vertex as usize], NONE);
@@ -257,15 +257,30 @@ impl<'a> Finish<'a> {
             gathering.push(names, self.position(names.0) - origin, self.position(names.1) - origin);
         }
         let count = gathering.count();
-        ring.complete(vertex, boundary, count);
+        ring.complete_names(vertex, boundary, count);
     }
 
     /// Gathers the ring of `vertex` as the source of `scratch`, if it is not there as it is.
     fn gather_source(&mut self, vertex: u32, scratch: &mut Scratch) {
         if self.gathered != Some(vertex) {
             self.gather(vertex, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+            scratch.source.complete_quadric();
             self.gathered = Some(vertex);
         }
+    }
+
+    /// Gathers the rings of both ends of an edge. Where vertices move their quadrics are known, and where they stay
+    /// nobody asks for that of the target.
+    fn gather_ends(&mut self, [source, target]: [u32; 2], scratch: &mut Scratch) {
+        if self.rules.half_edge {
+            self.gather_source(source, scratch);
+        } else if self.gathered != Some(source) {
+            self.gather(source, &mut scratch.source, &mut scratch.half_edge.wedges.corners);
+            scratch.source.quadric = self.quadrics[source as usize];
+            self.gathered = Some(source);
+        }
+        self.gather(target, &mut scratch.target, &mut scratch.target_corners);
+        scratch.target.quadric = self.quadrics[target as usize];
     }
 
     fn position(&self, vertex: u32) -> Vec3A {
@@ -306,6 +321,40 @@ impl<'a> Finish<'a> {
             }
             corner = self.next[corner as usize];
         }
+    }
+
+    /// Whether the link condition may hold at the edge from `vertex`, whose neighbours are `around`, to `partner`. It
+    /// does not with three neighbours in common, nor where an inner edge joins two borders. That is most of what
+    /// it forbids, and quickly seen: a surface that is stuck tries all of its edges.
+    fn may_join(&self, vertex: u32, around: &[u32], partner: u32) -> bool {
+        if self.rules.any_topology {
+            return true;
+        }
+        let is_open = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
+        let open = is_open(partner);
+        // Of an open ring each neighbour stands there once for each face with the edge to it.
+        if open && is_open(vertex) && around.iter().filter(|&&neighbour| neighbour == partner).count() > 1 {
+            return false;
+        }
+        let mut common = [NONE; 2];
+        let mut is_third = |name: u32| {
+            if !around.contains(&name) || common.contains(&name) {
+                return false;
+            }
+            let free = common.iter_mut().find(|known| **known == NONE);
+            free.map(|free| *free = name).is_none()
+        };
+        let mut corner = self.first[partner as usize];
+        while corner != NONE {
+            if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
+                let (next, previous) = neighbours(&self.surface.faces, corner);
+                if is_third(next) || open && is_third(previous) {
+                    return false;
+                }
+            }
+            corner = self.next[corner as usize];
+        }
+        true
     }
 
     fn is_locked(&self, vertex: u32) -> bool {
@@ -353,8 +402,10 @@ impl<'a> Finish<'a> {
         for &partner in around {
             let candidate = Candidate { cost: self.cost(vertex, partner), partner };
             seen(candidate);
-            let possible = failed.is_none_or(|failed| failed.order() < candidate.order());
-            if possible && candidate.order() < best.order() {
+            let is_next = |failed: Candidate| {
+                failed.order() < candidate.order() && self.may_join(vertex, around, partner)
+            };
+            if candidate.order() < best.order() && failed.is_none_or(is_next) {
                 best = candidate;
             }
         }
@@ -406,9 +457,15 @@ impl<'a> Finish<'a> {
         }
         let ends = if self.is_locked(vertex) { [partner, vertex] } else { [vertex, partner] };
         let price = self.candidates[vertex as usize].cost;
+        let mut around = std::mem::take(&mut self.around);
+        self.gather_neighbours(vertex, &mut around);
+        let may_join = self.may_join(vertex, &around, partner);
+        self.around = around;
+        if !may_join {
+            return Outcome::Illegal;
+        }
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.gather_source(ends[0], &mut scratch);
-        self.gather(ends[1], &mut scratch.target, &mut scratch.target_corners);
+        self.gather_ends(ends, &mut scratch);
         let outcome = self.collapse_gathered(ends, price, goal, &mut scratch);
         let Outcome::Done = outcome else {
             self.scratch = scratch;
