@@ -323,32 +323,40 @@ impl<'a> Finish<'a> {
         }
     }
 
-    /// Whether the link condition may hold at the edge from `vertex`, whose neighbours are `around`, to `partner`. It
-    /// does not with three neighbours in common, nor where an inner edge joins two borders. That is most of what
-    /// it forbids, and quickly seen: a surface that is stuck tries all of its edges.
+    /// Whether the link condition may hold at the edge from `vertex`, whose neighbours are `around`, to `partner`: not
+    /// where they have more neighbours in common than the edge has faces, nor where an inner edge joins two
+    /// borders. That is most of what it forbids, and quickly seen: a surface that is stuck tries all of its edges.
     fn may_join(&self, vertex: u32, around: &[u32], partner: u32) -> bool {
         if self.rules.any_topology {
             return true;
         }
-        let is_open = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
-        let open = is_open(partner);
+        let [is_open, is_partner_open] =
+            [vertex, partner].map(|end| self.surface.flags[end as usize] & flag::BOUNDARY != 0);
         // Of an open ring each neighbour stands there once for each face with the edge to it.
-        if open && is_open(vertex) && around.iter().filter(|&&neighbour| neighbour == partner).count() > 1 {
+        let shared = match is_open {
+            true => around.iter().filter(|&&neighbour| neighbour == partner).count(),
+            false => 2,
+        };
+        if shared > 2 || shared == 2 && is_open && is_partner_open {
             return false;
         }
-        let mut common = [NONE; 2];
-        let mut is_third = |name: u32| {
-            if !around.contains(&name) || common.contains(&name) {
+        let (mut common, mut found) = ([NONE; 2], 0);
+        let mut is_excess = |name: u32| {
+            if !around.contains(&name) || common[..found].contains(&name) {
                 return false;
             }
-            let free = common.iter_mut().find(|known| **known == NONE);
-            free.map(|free| *free = name).is_none()
+            if found == shared {
+                return true;
+            }
+            common[found] = name;
+            found += 1;
+            false
         };
         let mut corner = self.first[partner as usize];
         while corner != NONE {
             if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
                 let (next, previous) = neighbours(&self.surface.faces, corner);
-                if is_third(next) || open && is_third(previous) {
+                if is_excess(next) || is_partner_open && is_excess(previous) {
                     return false;
                 }
             }
@@ -524,17 +532,19 @@ impl<'a> Finish<'a> {
             target_point: self.surface.points[target as usize],
             target_locked: self.is_locked(target),
         };
-        let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
-        // What gives up the topology has folds of its own to close.
-        if !self.rules.any_topology && edge.buckles(&collapse) {
-            return Outcome::Illegal;
-        }
         let mut doomed = Vec::new();
         if self.rules.any_topology {
             match relax::coincident(source_ring, target_ring, &half_edge.wedges.corners, target_corners) {
                 Some(faces) => doomed = faces,
                 None => return Outcome::Illegal,
             }
+        }
+        let Some(collapse) = edge.collapse(self.rules, neighbours) else { return Outcome::Illegal };
+        // What gives up the topology has folds of its own to close.
+        if !self.rules.any_topology && edge.buckles(&collapse) {
+            return Outcome::Illegal;
+        }
+        if self.rules.any_topology {
             let corners = [&half_edge.wedges.corners[..], target_corners];
             if self.lays_bare(source_ring, target_ring, corners, &doomed) {
                 return Outcome::Illegal;
