@@ -198,7 +198,7 @@ impl Edge<'_> {
     /// common the corners opposite the edge, no other vertex, and no edge. Besides, an inner edge
     /// must not join two borders, and no face that hangs by its corners alone may vanish.
     #[inline(always)]
-    fn keeps_topology(&self, neighbours: &mut [Vec<u32>; 2]) -> bool {
+    pub(crate) fn keeps_topology(&self, neighbours: &mut [Vec<u32>; 2]) -> bool {
         let (source, target) = (self.source, self.target);
         let (after, before) = target.occurrences(source.vertex);
         let shared = after + before;
@@ -338,4 +338,4 @@ fn are_lines(areas_squared: Numbers, spokes: &Spokes, narrowest: Numbers) -> Num
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -100,7 +100,7 @@ fn check_every_edge(mesh: &Mesh) -> Result<(), TestCaseError> {
 
 /// Small surfaces with some of their faces gone: closed and open manifolds, and vertices where two
 /// fans meet.
-fn torn() -> impl Strategy<Value = Mesh> {
+pub(crate) fn torn() -> impl Strategy<Value = Mesh> {
     let shape = prop_oneof![
         (1usize..3).prop_map(shapes::cube),
         (1usize..5).prop_map(shapes::plane),
@@ -115,7 +115,7 @@ fn torn() -> impl Strategy<Value = Mesh> {
 }
 
 /// Any faces on a few vertices.
-fn dirty() -> impl Strategy<Value = Mesh> {
+pub(crate) fn dirty() -> impl Strategy<Value = Mesh> {
     prop::collection::vec([0u32..9, 0u32..9, 0u32..9], 0..24).prop_map(|faces| {
         let positions =
             (0..9).map(|vertex| [vertex as f32, (vertex * vertex % 5) as f32, (vertex % 4) as f32]);

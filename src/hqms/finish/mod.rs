@@ -689,3 +689,52 @@ impl<'a> Finish<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collapse::surface::Setting;
+    use crate::collapse::tests::{dirty, torn};
+    use crate::workers::Workers;
+    use proptest::prelude::*;
+    use std::borrow::Cow;
+
+    proptest! {
+        /// What names alone forbid, the link condition forbids; and the quadrics that are known are those of the rings.
+        #[test]
+        fn what_may_not_join_does_not_keep_the_topology(mesh in prop_oneof![torn(), dirty()]) {
+            let mut surface = Surface::new(Cow::Borrowed(&mesh), &Setting::default(), &Workers::Caller);
+            surface.classify(false, &Workers::Caller);
+            let rules = Rules {
+                any_topology: false,
+                may_relax: false,
+                error_limit: f32::INFINITY,
+                half_edge: false,
+                extent: [Vec3A::NEG_INFINITY, Vec3A::INFINITY],
+            };
+            let counts = Counts { faces: surface.faces.len(), vertices: surface.vertex_count() };
+            let mut finish = Finish::new(&mut surface, counts, &rules);
+            let (mut around, mut scratch) = (Vec::new(), Scratch::default());
+            for vertex in 0..mesh.positions().len() as u32 {
+                finish.gather_neighbours(vertex, &mut around);
+                for &partner in &around {
+                    finish.gather_ends([vertex, partner], &mut scratch);
+                    let edge = Edge {
+                        source: &scratch.source,
+                        target: &scratch.target,
+                        source_point: finish.surface.points[vertex as usize],
+                        target_point: finish.surface.points[partner as usize],
+                        target_locked: false,
+                    };
+                    let keeps = edge.keeps_topology(&mut scratch.neighbours);
+                    prop_assert!(finish.may_join(vertex, &around, partner) || !keeps, "{vertex} and {partner}");
+                    for mut ring in [scratch.source.clone(), scratch.target.clone()] {
+                        let known = ring.quadric;
+                        ring.complete_quadric();
+                        prop_assert_eq!(known, ring.quadric);
+                    }
+                }
+            }
+        }
+    }
+}
