@@ -135,11 +135,10 @@ impl Edge<'_> {
             fold(self.target, self.source.vertex, position - into)?
         };
         distance_squared = distance_squared.max(target_moved.distance_squared);
-        if moved.is_pointed {
-            distance_squared = distance_squared.max(self.retreat_squared(from, position, target_stays));
-        }
-        if target_moved.is_pointed {
-            distance_squared = distance_squared.max(self.retreat_squared(into, position, target_stays));
+        for (is_pointed, end) in [(moved.is_pointed, from), (target_moved.is_pointed, into)] {
+            if is_pointed {
+                distance_squared = self.retreat_squared(end, position, target_stays, distance_squared);
+            }
         }
         // What stays where it is adds nothing to the error that led there.
         let error = if rules.half_edge {
@@ -154,11 +153,12 @@ impl Edge<'_> {
         Some(Collapse { point: position.extend(error), along })
     }
 
-    /// The squared distance of an end of the edge that was at `point` from the faces around its new `position`:
-    /// a tip that goes back along the planes around it is on none of the surfaces that are left.
+    /// The squared distance of an end of the edge that was at `point` from the faces around its new `position`, or
+    /// `least` if that is larger: a tip that goes back along the planes around it is on none of the surfaces
+    /// that are left.
     #[cold]
     #[inline(never)]
-    fn retreat_squared(&self, point: Vec3A, position: Vec3A, target_stays: bool) -> f32 {
+    fn retreat_squared(&self, point: Vec3A, position: Vec3A, target_stays: bool, least: f32) -> f32 {
         let ends = [
             (self.source, self.target.vertex, self.source_point),
             (self.target, self.source.vertex, self.target_point),
@@ -171,9 +171,12 @@ impl Edge<'_> {
             for [next, previous] in ring.surviving_edges(other) {
                 let triangle = [position - point, from_point + next, from_point + previous];
                 nearest = nearest.min(distance_to_triangle_squared(triangle));
+                if nearest <= least {
+                    return least;
+                }
             }
         }
-        if nearest <= ON_FACE * (position - point).length_squared() { 0.0 } else { nearest }
+        if nearest <= ON_FACE * (position - point).length_squared() { least } else { nearest }
     }
 
     /// Whether a face would come to look away from the mean of those around the new vertex, as none did
