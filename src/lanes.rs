@@ -80,6 +80,11 @@ impl Vectors {
     }
 
     #[inline(always)]
+    pub(crate) fn new([x, y, z]: [Numbers; 3]) -> Self {
+        Self { x, y, z }
+    }
+
+    #[inline(always)]
     pub(crate) fn coordinates(self) -> [Numbers; 3] {
         [self.x, self.y, self.z]
     }

@@ -11,7 +11,7 @@
 //! regions too, and is drawn to the plane on which the volume stays what it is (Lindstrom and Turk,
 //! *Fast and memory efficient polygonal simplification*, 1998): without that, thin limbs waste away.
 
-use crate::lanes::{Numbers, Vectors, sums};
+use crate::lanes::{LANES, Numbers, Vectors, sums};
 use glam::Vec3A;
 
 /// How much the placement is drawn to the middle of the edge, as a share of the quadric's trace.
@@ -285,6 +285,143 @@ fn volume_plane(source: &Quadric, target: &Quadric, edge: Vec3A, trace: f32) -> 
     (quadric, weight * of_target.dot(edge) * sweep)
 }
 
+/// The quadrics of one end each of four edges, side by side.
+struct Quadrics {
+    xx: Numbers,
+    xy: Numbers,
+    xz: Numbers,
+    yy: Numbers,
+    yz: Numbers,
+    zz: Numbers,
+    sweep: Vectors,
+}
+
+impl Quadrics {
+    #[inline(always)]
+    fn new(quadrics: [&Quadric; LANES]) -> Self {
+        let each = |entry: fn(&Quadric) -> f32| Numbers::new(quadrics.map(entry));
+        let sweeps = [0, 1, 2].map(|axis| Numbers::new(quadrics.map(|quadric| quadric.sweep[axis])));
+        Self {
+            xx: each(|quadric| quadric.xx),
+            xy: each(|quadric| quadric.xy),
+            xz: each(|quadric| quadric.xz),
+            yy: each(|quadric| quadric.yy),
+            yz: each(|quadric| quadric.yz),
+            zz: each(|quadric| quadric.zz),
+            sweep: Vectors::new(sweeps),
+        }
+    }
+
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        Self {
+            xx: self.xx + other.xx,
+            xy: self.xy + other.xy,
+            xz: self.xz + other.xz,
+            yy: self.yy + other.yy,
+            yz: self.yz + other.yz,
+            zz: self.zz + other.zz,
+            sweep: self.sweep + other.sweep,
+        }
+    }
+
+    /// [`Quadric::at`].
+    #[inline(always)]
+    fn at(&self, places: Vectors) -> Numbers {
+        let [x, y, z] = places.coordinates();
+        let two = Numbers::splat(2.0);
+        let cost = x * (self.xx * x + two * (self.xy * y + self.xz * z))
+            + y * (self.yy * y + two * self.yz * z)
+            + z * self.zz * z;
+        cost.fast_max(Numbers::ZERO)
+    }
+
+    #[inline(always)]
+    fn apply(&self, places: Vectors) -> Vectors {
+        let [x, y, z] = places.coordinates();
+        Vectors::new([
+            self.xx * x + self.xy * y + self.xz * z,
+            self.xy * x + self.yy * y + self.yz * z,
+            self.xz * x + self.yz * y + self.zz * z,
+        ])
+    }
+
+    /// [`Quadric::solve`].
+    #[inline(always)]
+    fn solve(&self, shift: Numbers, right: Vectors) -> Vectors {
+        let [right_x, right_y, right_z] = right.coordinates();
+        let inverse_0 = Numbers::ONE / (self.xx + shift);
+        let l10 = self.xy * inverse_0;
+        let l20 = self.xz * inverse_0;
+        let inverse_1 = Numbers::ONE / (self.yy + shift - l10 * self.xy);
+        let u21 = self.yz - l10 * self.xz;
+        let l21 = u21 * inverse_1;
+        let pivot_2 = self.zz + shift - l20 * self.xz - l21 * u21;
+        let y1 = right_y - l10 * right_x;
+        let y2 = right_z - l20 * right_x - l21 * y1;
+        let z = y2 / pivot_2;
+        let y = y1 * inverse_1 - l21 * z;
+        let x = right_x * inverse_0 - l10 * y - l20 * z;
+        Vectors::new([x, y, z])
+    }
+}
+
+/// What [`place`] costs at four edges, side by side: the same to the last bit.
+#[inline(always)]
+pub(crate) fn costs_of_placing(
+    sources: [&Quadric; LANES],
+    targets: [&Quadric; LANES],
+    edges: Vectors,
+) -> Numbers {
+    let [source, target] = [sources, targets].map(Quadrics::new);
+    let sum = source.plus(&target);
+    let lengths_squared = edges.length_squared();
+    let trace = sum.xx + sum.yy + sum.zz;
+    let rounding = Numbers::splat(ROUNDING) * trace * lengths_squared;
+    let shift = Numbers::splat(REGULARISATION) * trace + Numbers::splat(f32::MIN_POSITIVE);
+    let half = Numbers::splat(0.5);
+    let middle = edges * half;
+    let drawn = |offset: Vectors| shift * (offset - middle).length_squared();
+    let pull = target.apply(edges);
+    let at_source = pull.dot(edges);
+    let at_target = source.at(edges);
+
+    let swept_squared = sum.sweep.length_squared();
+    let [is_source_open, is_target_open] =
+        [&source, &target].map(|end| end.sweep.length_squared().simd_le(Numbers::ZERO));
+    let is_flat = swept_squared.simd_le(Numbers::splat(FLAT * FLAT) * trace * trace);
+    let keeps_volume = !(is_source_open | is_target_open | is_flat);
+    let volume = keeps_volume & (Numbers::splat(VOLUME) * trace / swept_squared);
+    let [x, y, z] = sum.sweep.coordinates();
+    let [scaled_x, scaled_y, scaled_z] = (sum.sweep * volume).coordinates();
+    let keeping_volume = Quadrics {
+        xx: scaled_x * x,
+        xy: scaled_x * y,
+        xz: scaled_x * z,
+        yy: scaled_y * y,
+        yz: scaled_y * z,
+        zz: scaled_z * z,
+        sweep: Vectors::default(),
+    };
+    let volume_pull = sum.sweep * (volume * target.sweep.dot(edges));
+    let right = pull + edges * (half * shift) + volume_pull;
+    let offset = sum.plus(&keeping_volume).solve(shift, right);
+    let cost = at_source - Numbers::splat(2.0) * offset.dot(pull) + offset.dot(sum.apply(offset));
+    let placed = cost.fast_max(Numbers::ZERO) + drawn(offset);
+
+    // The best of both ends and the middle.
+    let at_middle = source.at(middle) + target.at(middle);
+    let drawn_to_end = drawn(edges);
+    let at_end = at_source.fast_min(at_target);
+    let is_middle = at_middle.simd_le(at_end);
+    let fallen_back = is_middle.select(at_middle, at_end + drawn_to_end);
+
+    let is_near = offset.length_squared().simd_lt(Numbers::splat(9.0) * lengths_squared);
+    let mut costs = is_near.select(placed, fallen_back);
+    costs = at_source.simd_le(rounding).select(at_source.fast_max(Numbers::ZERO) + drawn_to_end, costs);
+    at_target.simd_le(rounding).select(at_target + drawn_to_end, costs)
+}
+
 #[cfg(test)]
 mod tests {
     use glam::{DMat3, DVec3};
@@ -337,6 +474,41 @@ mod tests {
         let x = (sum + DMat3::from_diagonal(DVec3::splat(shift))).inverse() * right;
         let pull = shift * (x - 0.5 * edge).length_squared();
         (x, distances(source, DVec3::ZERO, x) + distances(target, edge, x) + pull)
+    }
+
+    /// Faces around an end of an edge, some of them flat, and none at all.
+    fn end() -> impl Strategy<Value = Quadric> {
+        let crosses = prop_oneof![
+            prop::collection::vec(vector(1.0), 0..8),
+            prop::collection::vec((0.0f32..1.0).prop_map(|z| Vec3A::new(0.0, 0.0, z)), 1..8),
+            prop::collection::vec(
+                (vector(1e-4), 0.1f32..1.0).prop_map(|(bend, z)| bend + z * Vec3A::Z),
+                1..8
+            ),
+        ];
+        (crosses, any::<bool>(), vector(1.0)).prop_map(|(crosses, is_open, border)| {
+            let mut quadric = of_faces(&crosses);
+            if is_open {
+                quadric.open();
+                quadric.add_border(border);
+            }
+            quadric
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn costs_side_by_side_are_those_of_each(
+            sources in prop::array::uniform4(end()),
+            targets in prop::array::uniform4(end()),
+            edges in prop::array::uniform4(prop_oneof![vector(2.0), vector(1e-3), Just(Vec3A::X), Just(Vec3A::ZERO)]),
+        ) {
+            let found = costs_of_placing(sources.each_ref(), targets.each_ref(), Vectors::filled_up(&edges));
+            for lane in 0..LANES {
+                let expected = place(&sources[lane], &targets[lane], edges[lane]).cost;
+                prop_assert_eq!(found.to_array()[lane].to_bits(), expected.to_bits(), "{} and {}", found.to_array()[lane], expected);
+            }
+        }
     }
 
     proptest! {

@@ -19,9 +19,11 @@ use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, Surface, flag, is_alive, is_open, neighbours};
 use crate::collapse::tile::blend_attributes;
 use crate::collapse::{Collapse, Counts, Edge, HalfEdge, Rules};
+use crate::lanes::{LANES, named_vectors};
 use crate::monitor::Cancelled;
-use crate::quadric::{Quadric, place};
+use crate::quadric::{Quadric, costs_of_placing};
 use glam::Vec3A;
+use std::array::from_fn;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// A vertex with more faces is a hub, and waits until its neighbours have gone: to update it at each
@@ -369,23 +371,32 @@ impl<'a> Finish<'a> {
         self.surface.flags[vertex as usize] & flag::LOCKED != 0
     }
 
-    /// The cost of the edge, the same from both ends to the last bit.
-    fn cost(&self, a: u32, b: u32) -> f32 {
-        if self.is_hub(a) || self.is_hub(b) {
-            return f32::INFINITY;
-        }
-        let (a, b) = (a.min(b), a.max(b));
-        let edge = self.position(b) - self.position(a);
-        let (of_a, of_b) = (&self.quadrics[a as usize], &self.quadrics[b as usize]);
+    /// The costs of the edges of `vertex` to `partners`, of which there are one to four: the same from both ends to
+    /// the last bit.
+    fn costs(&self, vertex: u32, partners: &[u32]) -> [f32; LANES] {
+        let ends: [[u32; 2]; LANES] = from_fn(|lane| {
+            let partner = partners[lane.min(partners.len() - 1)];
+            [vertex.min(partner), vertex.max(partner)]
+        });
+        let [of_first, of_second] = [0, 1].map(|end| ends.map(|ends| &self.quadrics[ends[end] as usize]));
+        let edges = ends.map(|[a, b]| self.surface.points[b as usize] - self.surface.points[a as usize]);
+        let placed = costs_of_placing(of_first, of_second, named_vectors(edges).0).to_array();
         let is_border = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
         let stays = |vertex, other| self.is_locked(vertex) || is_border(vertex) && !is_border(other);
-        let cost = match (stays(a, b), stays(b, a)) {
-            (false, false) => place(of_a, of_b, edge).cost,
-            (false, true) => of_a.at(edge),
-            (true, false) => of_b.at(-edge),
-            (true, true) => f32::INFINITY,
-        };
-        if cost.is_nan() { f32::INFINITY } else { cost }
+        from_fn(|lane| {
+            let [a, b] = ends[lane];
+            if self.is_hub(a) || self.is_hub(b) {
+                return f32::INFINITY;
+            }
+            let edge = Vec3A::from_vec4(edges[lane]);
+            let cost = match (stays(a, b), stays(b, a)) {
+                (false, false) => placed[lane],
+                (false, true) => of_first[lane].at(edge),
+                (true, false) => of_second[lane].at(-edge),
+                (true, true) => f32::INFINITY,
+            };
+            if cost.is_nan() { f32::INFINITY } else { cost }
+        })
     }
 
     /// The cheapest edge of `vertex`, or the next one after `failed`. `around` is room to work in.
@@ -407,14 +418,16 @@ impl<'a> Finish<'a> {
         mut seen: impl FnMut(Candidate),
     ) -> Candidate {
         let mut best = IMPOSSIBLE;
-        for &partner in around {
-            let candidate = Candidate { cost: self.cost(vertex, partner), partner };
-            seen(candidate);
-            let is_next = |failed: Candidate| {
-                failed.order() < candidate.order() && self.may_join(vertex, around, partner)
-            };
-            if candidate.order() < best.order() && failed.is_none_or(is_next) {
-                best = candidate;
+        for partners in around.chunks(LANES) {
+            for (&partner, cost) in partners.iter().zip(self.costs(vertex, partners)) {
+                let candidate = Candidate { cost, partner };
+                seen(candidate);
+                let is_next = |failed: Candidate| {
+                    failed.order() < candidate.order() && self.may_join(vertex, around, partner)
+                };
+                if candidate.order() < best.order() && failed.is_none_or(is_next) {
+                    best = candidate;
+                }
             }
         }
         best
