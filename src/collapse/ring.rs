@@ -232,9 +232,14 @@ impl Ring {
     /// In how many faces `vertex` comes after the ring's, and in how many before.
     #[inline(always)]
     pub(crate) fn occurrences(&self, vertex: u32) -> (u32, u32) {
-        self.blocks().iter().fold((0, 0), |(after, before), block| {
-            (after + block.after(vertex).count_ones(), before + block.before(vertex).count_ones())
-        })
+        let name = Names::splat(vertex);
+        let (mut after, mut before) = (Names::ZERO, Names::ZERO);
+        for block in self.blocks() {
+            // What is equal is all ones, which is one less than nothing.
+            after -= block.next.simd_eq(name);
+            before -= block.previous.simd_eq(name);
+        }
+        (after.to_array().into_iter().sum(), before.to_array().into_iter().sum())
     }
 
     /// The first face in which `vertex` comes before the ring's.

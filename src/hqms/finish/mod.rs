@@ -492,10 +492,11 @@ impl<'a> Finish<'a> {
             self.scratch = scratch;
             return outcome;
         };
-        let [around, other] = &mut scratch.neighbours;
-        scratch.source.neighbours(around);
-        scratch.target.neighbours(other);
-        around.extend(&*other);
+        let [around, _] = &mut scratch.neighbours;
+        around.clear();
+        for ring in [&scratch.source, &scratch.target] {
+            around.extend(ring.names().flat_map(|(next, previous)| [next, previous]));
+        }
         around.retain(|&vertex| vertex != ends[0]);
         around.push(ends[1]);
         around.sort_unstable();
