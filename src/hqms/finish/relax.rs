@@ -5,7 +5,8 @@
 //! vanish at the price of what they covered, edges keep at most a face on each side, and vertices at
 //! which surfaces only touch are split: holes close, thin necks part, small components go whole.
 
-use super::{Finish, IMPOSSIBLE};
+use super::Finish;
+use super::candidates::IMPOSSIBLE;
 use crate::collapse::ring::Ring;
 use crate::collapse::surface::{NONE, flag};
 use crate::mesh::partition::Partition;
