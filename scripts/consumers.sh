@@ -5,33 +5,9 @@
 #
 # Needs cargo, CMake 3.25, Ninja, make, pkg-config, a C and a C++ compiler, and binutils.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
+name=consumers
+. "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
 root=$PWD
-target=${CARGO_TARGET_DIR:-$root/target}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-say() {
-    echo "consumers: $*"
-}
-
-fail() {
-    say "$*" >&2
-    exit 1
-}
-
-quietly() {
-    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
-}
-
-# Configures and builds a CMake project.
-build() {
-    local source=$1 binary=$2
-    shift 2
-    quietly cmake -S "$source" -B "$binary" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@"
-    quietly cmake --build "$binary"
-}
 
 # Runs a program, and sees whether it loads the shared library as it should.
 run() {
@@ -85,10 +61,7 @@ check_static_symbols() {
     diff -u abi/symbols.txt "$work/symbols" || fail "$1 shows other symbols than the shared library"
 }
 
-say "building and installing"
-build . "$work/build" -DDECIMESH_BUILD_TESTS=OFF -DDECIMESH_BUILD_EXAMPLES=OFF \
-    -DCMAKE_INSTALL_LIBDIR=lib "-DDECIMESH_CARGO_TARGET_DIR=$target"
-quietly cmake --install "$work/build" --prefix "$work/prefix"
+install_decimesh "$work/prefix"
 check_relocatable "$work/prefix"
 check_static_symbols "$work/prefix/lib/libdecimesh.a"
 

@@ -18,12 +18,9 @@
 # Needs cargo, unless a prefix and a command are given.
 set -euo pipefail
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
 prefix=
 command=
-out=$work/meshlab
+out=
 pictures=
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/decimesh
 while [ $# -gt 0 ]; do
@@ -43,25 +40,13 @@ if [ -n "${MESH:-}" ]; then
     export MESH
 fi
 
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-target=${CARGO_TARGET_DIR:-$PWD/target}
+name=meshlab
+. "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
+out=${out:-$work/meshlab}
 
-say() {
-    echo "meshlab: $*"
-}
-
-quietly() {
-    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; say "failed: $*" >&2; exit 1; }
-}
-
-packages=(meshlab g++ cmake ninja-build doctest-dev python3 dpkg-dev
-    qtbase5-dev libqt5opengl5-dev libeigen3-dev libglew-dev
-    xvfb xauth libgl1-mesa-dri)
-if ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
-    say "installing what Debian has"
-    quietly apt-get update -q
-    DEBIAN_FRONTEND=noninteractive quietly apt-get install -y -q --no-install-recommends "${packages[@]}"
-fi
+need_packages meshlab g++ cmake ninja-build doctest-dev python3 dpkg-dev \
+    qtbase5-dev libqt5opengl5-dev libeigen3-dev libglew-dev \
+    xvfb xauth libgl1-mesa-dri
 
 # MeshLab's sources, of the version that is installed. apt is asked for sources from where it has packages from, in a
 # configuration and a state of its own: the machine's stay as they are.
@@ -89,26 +74,15 @@ if [ ! -d "$sources" ]; then
 fi
 
 if [ -z "$prefix" ]; then
-    say "building and installing decimesh"
     prefix=$out/decimesh
-    quietly cmake -S . -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_LIBDIR=lib \
-        -DDECIMESH_BUILD_TESTS=OFF -DDECIMESH_BUILD_EXAMPLES=OFF "-DDECIMESH_CARGO_TARGET_DIR=$target"
-    quietly cmake --build "$work/build"
-    quietly cmake --install "$work/build" --prefix "$prefix"
+    install_decimesh "$prefix"
 fi
-if [ -z "$command" ]; then
-    quietly cargo build --locked --release -p decimesh-cli --target-dir "$target"
-    command=$target/release/decimesh
-fi
+[ -n "$command" ] || build_command
 
 say "building the plugin"
-quietly cmake -S plugins/meshlab -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=$prefix" \
+build plugins/meshlab "$out" "-DCMAKE_PREFIX_PATH=$prefix" \
     "-DMESHLAB_SOURCE=$sources" "-DMESHLAB_PLUGIN_DECIMESH_COMMAND=$command" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
-quietly cmake --build "$out"
-
-say "its tests"
-quietly ctest --test-dir "$out" --output-on-failure --no-tests=error -j 2
-grep 'tests passed' "$work/log"
+run_tests "$out"
 
 if [ -n "$pictures" ]; then
     mkdir -p docs/images

@@ -13,12 +13,9 @@
 # Without a prefix it needs cargo.
 set -euo pipefail
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
 prefix=
 command=
-out=$work/viewer
+out=
 pictures=
 while [ $# -gt 0 ]; do
     case $1 in
@@ -30,50 +27,27 @@ while [ $# -gt 0 ]; do
     esac
 done
 
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-target=${CARGO_TARGET_DIR:-$PWD/target}
+name=viewer
+. "$(dirname "${BASH_SOURCE[0]}")/outside.sh"
+out=${out:-$work/viewer}
 
-say() {
-    echo "viewer: $*"
-}
-
-quietly() {
-    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; say "failed: $*" >&2; exit 1; }
-}
-
-packages=(g++ cmake ninja-build pkg-config doctest-dev
-    libglfw3-dev libimgui-dev libglm-dev libepoxy-dev libgl-dev libpng-dev
-    xvfb xauth libgl1-mesa-dri)
-if command -v dpkg-query >/dev/null && ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
-    say "installing what Debian has"
-    quietly apt-get update -q
-    DEBIAN_FRONTEND=noninteractive quietly apt-get install -y -q --no-install-recommends "${packages[@]}"
-fi
+need_packages g++ cmake ninja-build pkg-config doctest-dev \
+    libglfw3-dev libimgui-dev libglm-dev libepoxy-dev libgl-dev libpng-dev \
+    xvfb xauth libgl1-mesa-dri
 
 if [ -z "$prefix" ]; then
-    say "building and installing decimesh"
     prefix=$out/decimesh
-    quietly cmake -S . -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_LIBDIR=lib \
-        -DDECIMESH_BUILD_TESTS=OFF -DDECIMESH_BUILD_EXAMPLES=OFF "-DDECIMESH_CARGO_TARGET_DIR=$target"
-    quietly cmake --build "$work/build"
-    quietly cmake --install "$work/build" --prefix "$prefix"
-    if [ -z "$command" ]; then
-        quietly cargo build --locked --release -p decimesh-cli --target-dir "$target"
-        command=$target/release/decimesh
-    fi
+    install_decimesh "$prefix"
+    [ -n "$command" ] || build_command
 fi
 
 say "building the viewer"
-quietly cmake -S examples/viewer -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+build examples/viewer "$out" \
     "-DCMAKE_PREFIX_PATH=$prefix" "-DVIEWER_DECIMESH_COMMAND=$command" -DCMAKE_COMPILE_WARNING_AS_ERROR=ON
-quietly cmake --build "$out"
-
-say "its tests"
-quietly ctest --test-dir "$out" --output-on-failure --no-tests=error -j 2
-grep 'tests passed' "$work/log"
+run_tests "$out"
 
 if [ -n "$pictures" ]; then
-    [ -n "$command" ] || { say "pictures need --command" >&2; exit 1; }
+    [ -n "$command" ] || fail "pictures need --command"
     mkdir -p docs/images
     cp "$out"/tests/pictures/viewer-*.png docs/images/
     say "the pictures are in docs/images"
