@@ -75,6 +75,13 @@ void check_charts(const CMeshO &mesh, int textures, float tolerance) {
     }
 }
 
+/// All of a mesh with the texture coordinates of its wedges.
+Part take_with_wedges(const CMeshO &mesh) {
+    Attributes attributes;
+    attributes.wedge_uvs = true;
+    return take(mesh, Extent::all_faces, attributes);
+}
+
 /// Half of the way between neighbours when this part is left of the faces of a field of 24 by 24 quads.
 float half_edge(double ratio) {
     return 0.5F / 24 / static_cast<float>(std::sqrt(ratio));
@@ -110,9 +117,7 @@ TEST_CASE("vertices are taken once for each texture coordinate of their wedges, 
     Document with;
     layers::add_bumps(with.mesh, 8);
     add_charts(with.layer, 4, 2);
-    Attributes attributes;
-    attributes.wedge_uvs = true;
-    const Part part = take(with.mesh, Extent::all_faces, attributes);
+    const Part part = take_with_wedges(with.mesh);
     // Three seams of nine vertices.
     CHECK(part.vertices.size() == 81 + 27);
     CHECK(part.has_several_textures);
@@ -130,9 +135,7 @@ TEST_CASE("seams of wedges stay closed, charts and textures apart, whichever eng
             Document with;
             layers::add_bumps(with.mesh, 24);
             add_charts(with.layer, 4, textures);
-            Attributes attributes;
-            attributes.wedge_uvs = true;
-            const Part part = take(with.mesh, Extent::all_faces, attributes);
+            const Part part = take_with_wedges(with.mesh);
             Simplification simplification = to_ratio(0.3);
             if (engine == 1) {
                 simplification.options.placement = decimesh::Placement::existing;
@@ -174,9 +177,7 @@ TEST_CASE("seams may part where that is wished for, and vertices are made for it
     Document with;
     layers::add_bumps(with.mesh, 24);
     add_charts(with.layer, 4, 1);
-    Attributes attributes;
-    attributes.wedge_uvs = true;
-    const Part part = take(with.mesh, Extent::all_faces, attributes);
+    const Part part = take_with_wedges(with.mesh);
     Simplification simplification = to_ratio(0.2);
     simplification.options.keep_seams = false;
     put(with.mesh, part, simplify(part, simplification).replacement, false);
@@ -192,9 +193,7 @@ TEST_CASE("selected vertices go along seams alone where that is asked for, thoug
     for (CVertexO &vertex : with.mesh.vert) {
         vertex.SetS();
     }
-    Attributes attributes;
-    attributes.wedge_uvs = true;
-    const Part part = take(with.mesh, Extent::all_faces, attributes);
+    const Part part = take_with_wedges(with.mesh);
     Simplification simplification = to_ratio(0.05);
     simplification.options.placement = decimesh::Placement::existing;
     simplification.options.topology = decimesh::Topology::keep;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MeshLab's meshlabserver, run with the plugin, and the meshes that go in and come out.
+"""MeshLab's programs, run with the plugin, and the meshes that go in and come out.
 
 MeshLab looks for plugins beside its program. So that no test needs root, or changes what is installed, the program is
 copied into a tree whose plugins are links to MeshLab's own, and ours.
@@ -10,6 +10,8 @@ import os
 import shutil
 import struct
 import subprocess
+import tempfile
+import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -97,6 +99,34 @@ def edges(surface) -> collections.Counter:
     """How many faces are at each edge of what Ply.surface gives."""
     return collections.Counter(tuple(sorted((face[corner - 1], face[corner]))) for face in surface
                                for corner in range(3))
+
+
+class Staged(unittest.TestCase):
+    """Tests of one of MeshLab's programs, on a mesh: `program`, `work`, a directory, and `mesh`, a PLY file.
+
+    Takes from the environment: MESHLAB_LIBRARIES (MeshLab's), PLUGIN, DECIMESH (the command), and MESH, a PLY file to
+    take instead of the statue of `decimesh demo`, if it is set.
+    """
+
+    @classmethod
+    def set_up_with(cls, program: str, triangles: int):
+        """Stages the program of that name in the environment, and makes a statue of so many triangles."""
+        directory = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(directory.cleanup)
+        cls.work = Path(directory.name)
+        cls.program = stage(cls.work / "stage", Path(os.environ[program]), Path(os.environ["MESHLAB_LIBRARIES"]),
+                            Path(os.environ["PLUGIN"]))
+        if os.environ.get("MESH"):
+            # Beside all else: a picture shows where it was opened.
+            cls.mesh = Path(shutil.copy(os.environ["MESH"], cls.work))
+        else:
+            cls.decimesh("demo", cls.work, "--triangles", triangles, "--width", 100)
+            cls.mesh = cls.work / "statue.ply"
+
+    @classmethod
+    def decimesh(cls, *arguments):
+        command = [os.environ["DECIMESH"], *map(str, arguments), "--quiet"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
 
 class Ply:

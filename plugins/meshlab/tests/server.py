@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The filters as meshlabserver runs them, on files, beside the decimesh command on the same files.
 
-Takes from the environment: MESHLABSERVER and MESHLAB_LIBRARIES (MeshLab's), PLUGIN, DECIMESH (the command), and MESH, a
-PLY file to take instead of the statue of `decimesh demo`, if it is set.
+Takes from the environment MESHLABSERVER, and what meshlab_server.Staged takes.
 """
 
 import collections
 import math
 import os
 import re
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -18,25 +16,11 @@ import meshlab_server as meshlab
 from meshlab_server import CHOOSE, DEVIATION, LEVELS, SIMPLIFY, Ply
 
 
-class Server(unittest.TestCase):
+class Server(meshlab.Staged):
     @classmethod
     def setUpClass(cls):
-        directory = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(directory.cleanup)
-        cls.work = Path(directory.name)
-        cls.program = meshlab.stage(cls.work / "stage", Path(os.environ["MESHLABSERVER"]),
-                                    Path(os.environ["MESHLAB_LIBRARIES"]), Path(os.environ["PLUGIN"]))
-        if os.environ.get("MESH"):
-            cls.mesh = Path(os.environ["MESH"])
-        else:
-            cls.decimesh("demo", cls.work, "--triangles", 20000, "--width", 100)
-            cls.mesh = cls.work / "statue.ply"
+        cls.set_up_with("MESHLABSERVER", 20000)
         cls.faces = len(Ply(cls.mesh).faces)
-
-    @classmethod
-    def decimesh(cls, *arguments):
-        command = [os.environ["DECIMESH"], *map(str, arguments), "--quiet"]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
     def setUp(self):
         directory = tempfile.TemporaryDirectory(dir=self.work)

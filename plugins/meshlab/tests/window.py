@@ -1,41 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """MeshLab's window, with the plugin applied in it as a user would, and pictures of that.
 
-Takes from the environment what server.py takes, and MESHLAB, DRIVER (the plugin of window_driver.cpp), and PICTURES, the
-directory that the pictures are left in.
+Takes from the environment MESHLAB, DRIVER (the plugin of window_driver.cpp), PICTURES, the directory that the pictures are
+left in, and what meshlab_server.Staged takes.
 """
 
 import os
-import shutil
-import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
 import meshlab_server as meshlab
 
 
-class Window(unittest.TestCase):
+class Window(meshlab.Staged):
     @classmethod
     def setUpClass(cls):
-        directory = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(directory.cleanup)
-        cls.work = Path(directory.name)
-        cls.program = meshlab.stage(cls.work / "stage", Path(os.environ["MESHLAB"]),
-                                    Path(os.environ["MESHLAB_LIBRARIES"]), Path(os.environ["PLUGIN"]))
+        cls.set_up_with("MESHLAB", 100000)
         driver = Path(os.environ["DRIVER"])
         (next(cls.work.glob("stage/lib/*/meshlab/plugins")) / driver.name).symlink_to(driver)
-        if os.environ.get("MESH"):
-            # Beside all else: the picture shows where it was opened.
-            cls.mesh = Path(shutil.copy(os.environ["MESH"], cls.work))
-        else:
-            cls.decimesh("demo", cls.work, "--triangles", "100000", "--width", "100")
-            cls.mesh = cls.work / "statue.ply"
-
-    @classmethod
-    def decimesh(cls, *arguments):
-        subprocess.run([os.environ["DECIMESH"], *map(str, arguments), "--quiet"], check=True,
-                       stdout=subprocess.DEVNULL)
 
     def do(self, name, files, steps):
         """Opens the files, does the steps, and leaves the picture of that name."""
