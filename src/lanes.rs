@@ -8,13 +8,48 @@
 
 use glam::{Vec3A, Vec4};
 use std::array::from_fn;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// How many faces there are side by side.
 pub(crate) const LANES: usize = 4;
 
 /// A number for each of four faces; or what a comparison of two makes: for each whether it holds.
 pub(crate) type Numbers = wide::f32x4;
+
+/// One number, or one for each of four faces: what is worked out in the same way for both is written once.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// `number`, for each face.
+    fn of(number: f32) -> Self;
+
+    /// Zero in place of what is less.
+    fn not_negative(self) -> Self;
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn of(number: f32) -> Self {
+        number
+    }
+
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        self.max(0.0)
+    }
+}
+
+impl Number for Numbers {
+    #[inline(always)]
+    fn of(number: f32) -> Self {
+        Self::splat(number)
+    }
+
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        self.fast_max(Self::ZERO)
+    }
+}
 
 /// The name of a vertex for each of four faces.
 pub(crate) type Names = wide::u32x4;
@@ -80,11 +115,6 @@ impl Vectors {
     }
 
     #[inline(always)]
-    pub(crate) fn new([x, y, z]: [Numbers; 3]) -> Self {
-        Self { x, y, z }
-    }
-
-    #[inline(always)]
     pub(crate) fn coordinates(self) -> [Numbers; 3] {
         [self.x, self.y, self.z]
     }
@@ -106,6 +136,20 @@ impl Vectors {
             y: self.z * other.x - self.x * other.z,
             z: self.x * other.y - self.y * other.x,
         }
+    }
+}
+
+impl From<[Numbers; 3]> for Vectors {
+    #[inline(always)]
+    fn from([x, y, z]: [Numbers; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl From<Vectors> for [Numbers; 3] {
+    #[inline(always)]
+    fn from(vectors: Vectors) -> Self {
+        vectors.coordinates()
     }
 }
 

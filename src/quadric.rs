@@ -11,7 +11,7 @@
 //! regions too, and is drawn to the plane on which the volume stays what it is (Lindstrom and Turk,
 //! *Fast and memory efficient polygonal simplification*, 1998): without that, thin limbs waste away.
 
-use crate::lanes::{LANES, Numbers, Vectors, sums};
+use crate::lanes::{LANES, Number, Numbers, Vectors, sums};
 use glam::Vec3A;
 
 /// How much the placement is drawn to the middle of the edge, as a share of the quadric's trace.
@@ -54,15 +54,91 @@ const ROUNDING: f32 = 1e-7;
 /// A sum of squared distances, area-weighted, to planes through the origin: the symmetric matrix
 /// `A` of `x -> xᵀ A x`; and the sum of the faces' vector areas, doubled, whose product with `x` is six
 /// times the volume that the faces sweep when their vertex goes to `x`.
+///
+/// Of one vertex, or of [four side by side](Quadric::side_by_side).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Quadric {
-    xx: f32,
-    xy: f32,
-    xz: f32,
-    yy: f32,
-    yz: f32,
-    zz: f32,
-    sweep: [f32; 3],
+pub(crate) struct Quadric<N = f32> {
+    xx: N,
+    xy: N,
+    xz: N,
+    yy: N,
+    yz: N,
+    zz: N,
+    sweep: [N; 3],
+}
+
+impl<N: Number> Quadric<N> {
+    /// Adds the plane with this (any length) `normal`, each unit of squared length weighing `weight`.
+    #[inline(always)]
+    pub(crate) fn add_plane(&mut self, normal: impl Into<[N; 3]>, weight: N) {
+        let [x, y, z] = normal.into();
+        let [scaled_x, scaled_y, scaled_z] = [x * weight, y * weight, z * weight];
+        self.xx = self.xx + scaled_x * x;
+        self.xy = self.xy + scaled_x * y;
+        self.xz = self.xz + scaled_x * z;
+        self.yy = self.yy + scaled_y * y;
+        self.yz = self.yz + scaled_y * z;
+        self.zz = self.zz + scaled_z * z;
+    }
+
+    /// The weighted sum of squared distances at `place`.
+    #[inline(always)]
+    pub(crate) fn at(&self, place: impl Into<[N; 3]>) -> N {
+        let [x, y, z] = place.into();
+        let [xy, xz, yz] = [self.xy, self.xz, self.yz].map(|entry| N::of(2.0) * entry);
+        let cost = x * (self.xx * x + (xy * y + xz * z)) + y * (self.yy * y + yz * z) + z * self.zz * z;
+        cost.not_negative()
+    }
+
+    /// The sum of the squared distances at unit length along the three axes.
+    #[inline(always)]
+    pub(crate) fn trace(&self) -> N {
+        self.xx + self.yy + self.zz
+    }
+
+    #[inline(always)]
+    fn apply(&self, place: impl Into<[N; 3]>) -> [N; 3] {
+        let [x, y, z] = place.into();
+        [
+            self.xx * x + self.xy * y + self.xz * z,
+            self.xy * x + self.yy * y + self.yz * z,
+            self.xz * x + self.yz * y + self.zz * z,
+        ]
+    }
+
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        let [[a, b, c], [d, e, f]] = [self.sweep, other.sweep];
+        Self {
+            xx: self.xx + other.xx,
+            xy: self.xy + other.xy,
+            xz: self.xz + other.xz,
+            yy: self.yy + other.yy,
+            yz: self.yz + other.yz,
+            zz: self.zz + other.zz,
+            sweep: [a + d, b + e, c + f],
+        }
+    }
+
+    /// Solves `(A + shift I) x = right` by LDLᵀ without pivoting, which is stable as the matrix is
+    /// positive definite. Not finite where it is not.
+    #[inline(always)]
+    pub(crate) fn solve(&self, shift: N, right: impl Into<[N; 3]>) -> [N; 3] {
+        let [right_x, right_y, right_z] = right.into();
+        let inverse_0 = N::of(1.0) / (self.xx + shift);
+        let l10 = self.xy * inverse_0;
+        let l20 = self.xz * inverse_0;
+        let inverse_1 = N::of(1.0) / (self.yy + shift - l10 * self.xy);
+        let u21 = self.yz - l10 * self.xz;
+        let l21 = u21 * inverse_1;
+        let pivot_2 = self.zz + shift - l20 * self.xz - l21 * u21;
+        let y1 = right_y - l10 * right_x;
+        let y2 = right_z - l20 * right_x - l21 * y1;
+        let z = y2 / pivot_2;
+        let y = y1 * inverse_1 - l21 * z;
+        let x = right_x * inverse_0 - l10 * y - l20 * z;
+        [x, y, z]
+    }
 }
 
 impl Quadric {
@@ -85,18 +161,6 @@ impl Quadric {
         let [yz, zz, x, y] = sums([yz, zz, x, y]);
         let [z, ..] = sums([z; 4]);
         Self { xx, xy, xz, yy, yz, zz, sweep: [x, y, z] }
-    }
-
-    /// Adds the plane with this (any length) `normal`, each unit of squared length weighing `weight`.
-    #[inline(always)]
-    pub(crate) fn add_plane(&mut self, normal: Vec3A, weight: f32) {
-        let scaled = normal * weight;
-        self.xx += scaled.x * normal.x;
-        self.xy += scaled.x * normal.y;
-        self.xz += scaled.x * normal.z;
-        self.yy += scaled.y * normal.y;
-        self.yz += scaled.y * normal.z;
-        self.zz += scaled.z * normal.z;
     }
 
     /// Forgets what its faces sweep: those around a border enclose no volume.
@@ -147,72 +211,36 @@ impl Quadric {
         }
     }
 
-    /// The weighted sum of squared distances at `x`.
-    #[inline(always)]
-    pub(crate) fn at(&self, x: Vec3A) -> f32 {
-        let cost = x.x * (self.xx * x.x + 2.0 * (self.xy * x.y + self.xz * x.z))
-            + x.y * (self.yy * x.y + 2.0 * self.yz * x.z)
-            + x.z * self.zz * x.z;
-        cost.max(0.0)
-    }
-
-    /// The same at four places.
+    /// What it is [at](Self::at) four places.
     #[inline(always)]
     pub(crate) fn at_each(&self, places: Vectors) -> Numbers {
-        let [x, y, z] = places.coordinates();
-        let [xx, yy, zz] = [self.xx, self.yy, self.zz].map(Numbers::splat);
-        let [xy, xz, yz] = [2.0 * self.xy, 2.0 * self.xz, 2.0 * self.yz].map(Numbers::splat);
-        let cost = x * (xx * x + (xy * y + xz * z)) + y * (yy * y + yz * z) + z * zz * z;
-        cost.fast_max(Numbers::ZERO)
+        Quadric::side_by_side([self; LANES]).at(places)
     }
 
     /// The sum of the faces' vector areas, doubled; zero of what was [opened](Self::open).
     pub(crate) fn sweep(&self) -> Vec3A {
         Vec3A::from(self.sweep)
     }
+}
 
-    /// The sum of the squared distances at unit length along the three axes.
-    pub(crate) fn trace(&self) -> f32 {
-        self.xx + self.yy + self.zz
-    }
-
-    fn apply(&self, x: Vec3A) -> Vec3A {
-        Vec3A::new(
-            self.xx * x.x + self.xy * x.y + self.xz * x.z,
-            self.xy * x.x + self.yy * x.y + self.yz * x.z,
-            self.xz * x.x + self.yz * x.y + self.zz * x.z,
-        )
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        Self {
-            xx: self.xx + other.xx,
-            xy: self.xy + other.xy,
-            xz: self.xz + other.xz,
-            yy: self.yy + other.yy,
-            yz: self.yz + other.yz,
-            zz: self.zz + other.zz,
-            sweep: (self.sweep() + other.sweep()).to_array(),
-        }
-    }
-
-    /// Solves `(A + shift I) x = right` by LDLᵀ without pivoting, which is stable as the matrix is
-    /// positive definite. Not finite where it is not.
+impl Quadric<Numbers> {
+    /// The quadrics of four vertices.
     #[inline(always)]
-    pub(crate) fn solve(&self, shift: f32, right: Vec3A) -> Vec3A {
-        let inverse_0 = 1.0 / (self.xx + shift);
-        let l10 = self.xy * inverse_0;
-        let l20 = self.xz * inverse_0;
-        let inverse_1 = 1.0 / (self.yy + shift - l10 * self.xy);
-        let u21 = self.yz - l10 * self.xz;
-        let l21 = u21 * inverse_1;
-        let pivot_2 = self.zz + shift - l20 * self.xz - l21 * u21;
-        let y1 = right.y - l10 * right.x;
-        let y2 = right.z - l20 * right.x - l21 * y1;
-        let z = y2 / pivot_2;
-        let y = y1 * inverse_1 - l21 * z;
-        let x = right.x * inverse_0 - l10 * y - l20 * z;
-        Vec3A::new(x, y, z)
+    fn side_by_side(quadrics: [&Quadric; LANES]) -> Self {
+        let each = |entry: fn(&Quadric) -> f32| Numbers::new(quadrics.map(entry));
+        Self {
+            xx: each(|quadric| quadric.xx),
+            xy: each(|quadric| quadric.xy),
+            xz: each(|quadric| quadric.xz),
+            yy: each(|quadric| quadric.yy),
+            yz: each(|quadric| quadric.yz),
+            zz: each(|quadric| quadric.zz),
+            sweep: [
+                each(|quadric| quadric.sweep[0]),
+                each(|quadric| quadric.sweep[1]),
+                each(|quadric| quadric.sweep[2]),
+            ],
+        }
     }
 }
 
@@ -240,7 +268,7 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placemen
     let rounding = ROUNDING * trace * length_squared;
     let shift = REGULARISATION * trace + f32::MIN_POSITIVE;
     let drawn = |offset: Vec3A| shift * (offset - 0.5 * edge).length_squared();
-    let pull = target.apply(edge);
+    let pull = Vec3A::from(target.apply(edge));
     let constant = pull.dot(edge);
     let at_target = source.at(edge);
     if at_target <= rounding {
@@ -250,9 +278,10 @@ pub(crate) fn place(source: &Quadric, target: &Quadric, edge: Vec3A) -> Placemen
         return Placement { offset: Vec3A::ZERO, cost: constant.max(0.0) + drawn(edge) };
     }
     let (keeping_volume, volume_pull) = volume_plane(source, target, edge, trace);
-    let offset = sum.plus(&keeping_volume).solve(shift, pull + 0.5 * shift * edge + volume_pull);
+    let right = pull + 0.5 * shift * edge + volume_pull;
+    let offset = Vec3A::from(sum.plus(&keeping_volume).solve(shift, right));
     if offset.length_squared() < 9.0 * length_squared {
-        let cost = constant - 2.0 * offset.dot(pull) + offset.dot(sum.apply(offset));
+        let cost = constant - 2.0 * offset.dot(pull) + offset.dot(sum.apply(offset).into());
         return Placement { offset, cost: cost.max(0.0) + drawn(offset) };
     }
     let middle = 0.5 * edge;
@@ -285,87 +314,6 @@ fn volume_plane(source: &Quadric, target: &Quadric, edge: Vec3A, trace: f32) -> 
     (quadric, weight * of_target.dot(edge) * sweep)
 }
 
-/// The quadrics of one end each of four edges, side by side.
-struct Quadrics {
-    xx: Numbers,
-    xy: Numbers,
-    xz: Numbers,
-    yy: Numbers,
-    yz: Numbers,
-    zz: Numbers,
-    sweep: Vectors,
-}
-
-impl Quadrics {
-    #[inline(always)]
-    fn new(quadrics: [&Quadric; LANES]) -> Self {
-        let each = |entry: fn(&Quadric) -> f32| Numbers::new(quadrics.map(entry));
-        let sweeps = [0, 1, 2].map(|axis| Numbers::new(quadrics.map(|quadric| quadric.sweep[axis])));
-        Self {
-            xx: each(|quadric| quadric.xx),
-            xy: each(|quadric| quadric.xy),
-            xz: each(|quadric| quadric.xz),
-            yy: each(|quadric| quadric.yy),
-            yz: each(|quadric| quadric.yz),
-            zz: each(|quadric| quadric.zz),
-            sweep: Vectors::new(sweeps),
-        }
-    }
-
-    #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Self {
-            xx: self.xx + other.xx,
-            xy: self.xy + other.xy,
-            xz: self.xz + other.xz,
-            yy: self.yy + other.yy,
-            yz: self.yz + other.yz,
-            zz: self.zz + other.zz,
-            sweep: self.sweep + other.sweep,
-        }
-    }
-
-    /// [`Quadric::at`].
-    #[inline(always)]
-    fn at(&self, places: Vectors) -> Numbers {
-        let [x, y, z] = places.coordinates();
-        let two = Numbers::splat(2.0);
-        let cost = x * (self.xx * x + two * (self.xy * y + self.xz * z))
-            + y * (self.yy * y + two * self.yz * z)
-            + z * self.zz * z;
-        cost.fast_max(Numbers::ZERO)
-    }
-
-    #[inline(always)]
-    fn apply(&self, places: Vectors) -> Vectors {
-        let [x, y, z] = places.coordinates();
-        Vectors::new([
-            self.xx * x + self.xy * y + self.xz * z,
-            self.xy * x + self.yy * y + self.yz * z,
-            self.xz * x + self.yz * y + self.zz * z,
-        ])
-    }
-
-    /// [`Quadric::solve`].
-    #[inline(always)]
-    fn solve(&self, shift: Numbers, right: Vectors) -> Vectors {
-        let [right_x, right_y, right_z] = right.coordinates();
-        let inverse_0 = Numbers::ONE / (self.xx + shift);
-        let l10 = self.xy * inverse_0;
-        let l20 = self.xz * inverse_0;
-        let inverse_1 = Numbers::ONE / (self.yy + shift - l10 * self.xy);
-        let u21 = self.yz - l10 * self.xz;
-        let l21 = u21 * inverse_1;
-        let pivot_2 = self.zz + shift - l20 * self.xz - l21 * u21;
-        let y1 = right_y - l10 * right_x;
-        let y2 = right_z - l20 * right_x - l21 * y1;
-        let z = y2 / pivot_2;
-        let y = y1 * inverse_1 - l21 * z;
-        let x = right_x * inverse_0 - l10 * y - l20 * z;
-        Vectors::new([x, y, z])
-    }
-}
-
 /// What [`place`] costs at four edges, side by side: the same to the last bit.
 #[inline(always)]
 pub(crate) fn costs_of_placing(
@@ -373,40 +321,32 @@ pub(crate) fn costs_of_placing(
     targets: [&Quadric; LANES],
     edges: Vectors,
 ) -> Numbers {
-    let [source, target] = [sources, targets].map(Quadrics::new);
+    let [source, target] = [sources, targets].map(Quadric::side_by_side);
     let sum = source.plus(&target);
     let lengths_squared = edges.length_squared();
-    let trace = sum.xx + sum.yy + sum.zz;
+    let trace = sum.trace();
     let rounding = Numbers::splat(ROUNDING) * trace * lengths_squared;
     let shift = Numbers::splat(REGULARISATION) * trace + Numbers::splat(f32::MIN_POSITIVE);
     let half = Numbers::splat(0.5);
     let middle = edges * half;
     let drawn = |offset: Vectors| shift * (offset - middle).length_squared();
-    let pull = target.apply(edges);
+    let pull = Vectors::from(target.apply(edges));
     let at_source = pull.dot(edges);
     let at_target = source.at(edges);
 
-    let swept_squared = sum.sweep.length_squared();
+    let [of_source, of_target, sweep] = [source.sweep, target.sweep, sum.sweep].map(Vectors::from);
+    let swept_squared = sweep.length_squared();
     let [is_source_open, is_target_open] =
-        [&source, &target].map(|end| end.sweep.length_squared().simd_le(Numbers::ZERO));
+        [of_source, of_target].map(|swept| swept.length_squared().simd_le(Numbers::ZERO));
     let is_flat = swept_squared.simd_le(Numbers::splat(FLAT * FLAT) * trace * trace);
     let keeps_volume = !(is_source_open | is_target_open | is_flat);
     let volume = keeps_volume & (Numbers::splat(VOLUME) * trace / swept_squared);
-    let [x, y, z] = sum.sweep.coordinates();
-    let [scaled_x, scaled_y, scaled_z] = (sum.sweep * volume).coordinates();
-    let keeping_volume = Quadrics {
-        xx: scaled_x * x,
-        xy: scaled_x * y,
-        xz: scaled_x * z,
-        yy: scaled_y * y,
-        yz: scaled_y * z,
-        zz: scaled_z * z,
-        sweep: Vectors::default(),
-    };
-    let volume_pull = sum.sweep * (volume * target.sweep.dot(edges));
+    let mut keeping_volume = Quadric::default();
+    keeping_volume.add_plane(sweep, volume);
+    let volume_pull = sweep * (volume * of_target.dot(edges));
     let right = pull + edges * (half * shift) + volume_pull;
-    let offset = sum.plus(&keeping_volume).solve(shift, right);
-    let cost = at_source - Numbers::splat(2.0) * offset.dot(pull) + offset.dot(sum.apply(offset));
+    let offset = Vectors::from(sum.plus(&keeping_volume).solve(shift, right));
+    let cost = at_source - Numbers::splat(2.0) * offset.dot(pull) + offset.dot(sum.apply(offset).into());
     let placed = cost.fast_max(Numbers::ZERO) + drawn(offset);
 
     // The best of both ends and the middle.

@@ -138,7 +138,7 @@ impl<'a> Descent<'a> {
         let weight = ANCHOR / 3.0 * weight;
         equations.add_plane(anchor.normal, weight);
         right += weight * anchor.normal.dot(anchor.point - own) * anchor.normal;
-        let step = equations.solve(REGULARISATION * equations.trace(), right);
+        let step = Vec3A::from(equations.solve(REGULARISATION * equations.trace(), right));
         let normals = self.surface.ring(vertex).map(|corner| self.planes[(corner >> 2) as usize].normal);
         let height = normals.map(|normal| normal.dot(step).abs()).fold(0.0, f32::max);
         let (lowest, nearest) = (HEIGHT * farthest.sqrt(), REACH * shortest.sqrt());
