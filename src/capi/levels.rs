@@ -171,7 +171,7 @@ pub unsafe extern "C" fn decimesh_levels_groups(
         unsafe {
             let levels = &*levels;
             levels.check(level)?;
-            groups.write(levels.groups[level].as_ref().map_or(ptr::null(), |groups| groups.as_ptr()));
+            groups.write(levels.groups[level].as_deref().map_or(ptr::null(), <[u32]>::as_ptr));
         }
         Ok(())
     })
@@ -194,7 +194,7 @@ pub unsafe extern "C" fn decimesh_levels_origins(
         unsafe {
             let levels = &*levels;
             levels.check(level)?;
-            origins.write(levels.origins[level].as_ref().map_or(ptr::null(), |origins| origins.as_ptr()));
+            origins.write(levels.origins[level].as_deref().map_or(ptr::null(), <[u32]>::as_ptr));
         }
         Ok(())
     })

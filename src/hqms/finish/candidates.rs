@@ -32,18 +32,30 @@ impl Finish<'_> {
         if self.is_hub(vertex) {
             return;
         }
-        let open = self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
-        let mut corner = self.first[vertex as usize];
-        while corner != NONE {
-            if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
-                let (next, previous) = neighbours(&self.surface.faces, corner);
-                around.push(next);
-                if open {
-                    around.push(previous);
-                }
+        let is_open = self.is_open(vertex);
+        for (next, previous) in self.names_around(vertex) {
+            around.push(next);
+            if is_open {
+                around.push(previous);
             }
-            corner = self.next[corner as usize];
         }
+    }
+
+    /// The corners after and before `vertex` in each of its faces.
+    fn names_around(&self, vertex: u32) -> impl Iterator<Item = (u32, u32)> {
+        let faces = &self.surface.faces;
+        let corner = |name: u32| (name != NONE).then_some(name);
+        let corners = std::iter::successors(corner(self.first[vertex as usize]), move |&last| {
+            corner(self.next[last as usize])
+        });
+        corners
+            .filter(|&corner| is_alive(&faces[(corner >> 2) as usize]))
+            .map(|corner| neighbours(faces, corner))
+    }
+
+    /// Whether `vertex` is on a border, as it was known when its ring last changed.
+    fn is_open(&self, vertex: u32) -> bool {
+        self.surface.flags[vertex as usize] & flag::BOUNDARY != 0
     }
 
     /// Whether the link condition may hold at the edge from `vertex`, whose neighbours are `around`, to `partner`: not
@@ -53,8 +65,7 @@ impl Finish<'_> {
         if self.rules.any_topology {
             return true;
         }
-        let [is_open, is_partner_open] =
-            [vertex, partner].map(|end| self.surface.flags[end as usize] & flag::BOUNDARY != 0);
+        let [is_open, is_partner_open] = [vertex, partner].map(|end| self.is_open(end));
         // Of an open ring each neighbour stands there once for each face with the edge to it.
         let shared = match is_open {
             true => around.iter().filter(|&&neighbour| neighbour == partner).count(),
@@ -75,17 +86,8 @@ impl Finish<'_> {
             found += 1;
             false
         };
-        let mut corner = self.first[partner as usize];
-        while corner != NONE {
-            if is_alive(&self.surface.faces[(corner >> 2) as usize]) {
-                let (next, previous) = neighbours(&self.surface.faces, corner);
-                if is_excess(next) || is_partner_open && is_excess(previous) {
-                    return false;
-                }
-            }
-            corner = self.next[corner as usize];
-        }
-        true
+        let mut names = self.names_around(partner);
+        !names.any(|(next, previous)| is_excess(next) || is_partner_open && is_excess(previous))
     }
 
     /// The costs of the edges of `vertex` to `partners`, of which there are one to four: the same from both ends to
@@ -98,8 +100,7 @@ impl Finish<'_> {
         let [of_first, of_second] = [0, 1].map(|end| ends.map(|ends| &self.quadrics[ends[end] as usize]));
         let edges = ends.map(|[a, b]| self.surface.points[b as usize] - self.surface.points[a as usize]);
         let placed = costs_of_placing(of_first, of_second, named_vectors(edges).0).to_array();
-        let is_border = |vertex: u32| self.surface.flags[vertex as usize] & flag::BOUNDARY != 0;
-        let stays = |vertex, other| self.is_locked(vertex) || is_border(vertex) && !is_border(other);
+        let stays = |vertex, other| self.is_locked(vertex) || self.is_open(vertex) && !self.is_open(other);
         from_fn(|lane| {
             let [a, b] = ends[lane];
             if self.is_hub(a) || self.is_hub(b) {
@@ -188,7 +189,6 @@ impl Finish<'_> {
 
 #[cfg(test)]
 mod tests {
-
     use super::*;
     use crate::collapse::surface::{Setting, Surface};
     use crate::collapse::tests::{dirty, torn};

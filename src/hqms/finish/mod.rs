@@ -320,7 +320,7 @@ impl<'a> Finish<'a> {
             self.scratch = scratch;
             return outcome;
         };
-        let [around, _] = &mut scratch.neighbours;
+        let around = &mut scratch.neighbours[0];
         around.clear();
         for ring in [&scratch.source, &scratch.target] {
             around.extend(ring.names().flat_map(|(next, previous)| [next, previous]));
